@@ -1,0 +1,1 @@
+//! The demos of pliant: scenes, drawing, the window and the files that the program writes.
