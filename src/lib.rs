@@ -9,6 +9,7 @@
 //! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`] → [`spring`], [`field`], [`mesh`] → [`math`].
 
 pub mod elastic;
+pub mod field;
 pub mod math;
 pub mod mesh;
 pub mod spring;

@@ -1,0 +1,22 @@
+//! Divergence-free vector fields and their path lines: pure functions, no state.
+//!
+//! Every field here is the curl of one potential (see [`curl`]); only the scalar weight differs.
+
+mod certificate;
+mod curl;
+mod hugging;
+mod kernel;
+mod part;
+mod part_distance;
+mod path_line;
+mod sphere;
+mod spring;
+
+pub use certificate::{Lipschitz, certified_steps};
+pub use curl::curl_of_weighted_rotation;
+pub use hugging::HuggingField;
+pub use kernel::{CollisionKernel, SpringKernel};
+pub use part::{ConvexHull, ConvexPart, HullError, PartShape, PlacedPart};
+pub use path_line::{Integrator, path_line};
+pub use sphere::SphereField;
+pub use spring::SpringField;
