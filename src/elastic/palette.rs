@@ -1,0 +1,121 @@
+//! The palette of one frame: for each segment a rigid motion and the fields that deform it, and the collision passes.
+//!
+//! This is everything that the deformation of a vertex depends on besides its rest data; a few kilobytes that the
+//! vector unit of a processor or a compute pass reads alike (section 5.4).
+
+use crate::field::{HuggingField, Integrator, Lipschitz, SphereField, SpringField, certified_steps};
+use crate::math::{Pose, Vec3};
+
+/// A collision field: the part-hugging one, or the paper's with the bounding sphere.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CollisionField {
+    /// See [`HuggingField`].
+    Hugging(HuggingField),
+    /// See [`SphereField`].
+    Sphere(SphereField),
+}
+
+impl CollisionField {
+    /// Velocity at `x` and `t`.
+    #[inline]
+    pub fn velocity(&self, x: Vec3, t: f32) -> Vec3 {
+        match self {
+            Self::Hugging(field) => field.velocity(x, t),
+            Self::Sphere(field) => field.velocity(x, t),
+        }
+    }
+
+    /// The displacement `d` that the field gives its region of constant velocity.
+    pub fn displacement(&self) -> Vec3 {
+        match self {
+            Self::Hugging(field) => field.d,
+            Self::Sphere(field) => field.d,
+        }
+    }
+}
+
+impl Lipschitz for CollisionField {
+    fn lipschitz(&self) -> f32 {
+        match self {
+            Self::Hugging(field) => field.lipschitz(),
+            Self::Sphere(field) => field.lipschitz(),
+        }
+    }
+}
+
+/// Summed fields of one stage (section 5.1) with the step count that certifies the sum.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpringStage {
+    /// The fields that are added up.
+    pub fields: Vec<SpringField>,
+    /// Integration steps.
+    pub steps: u32,
+}
+
+impl SpringStage {
+    /// A stage of `fields`, with at least the integrator's default steps, more where the Lipschitz bound asks for
+    /// them, and at most `max_steps`: past that every `q` is pulled back towards its `p` until the bound is met.
+    pub fn certified(mut fields: Vec<SpringField>, integrator: Integrator, max_steps: u32) -> Self {
+        let least = integrator.default_steps().min(max_steps).max(1);
+        let bound: f32 = fields.iter().map(Lipschitz::lipschitz).sum();
+        let needed = certified_steps(bound, least);
+        if needed > max_steps {
+            let pull = max_steps as f32 / needed as f32;
+            for field in &mut fields {
+                field.q = field.p + (field.q - field.p) * pull;
+            }
+        }
+        Self { fields, steps: needed.clamp(least, max_steps.max(1)) }
+    }
+
+    /// The sum of the fields.
+    #[inline]
+    pub fn velocity(&self, x: Vec3, t: f32) -> Vec3 {
+        let mut sum = Vec3::ZERO;
+        for field in &self.fields {
+            sum += field.velocity(x, t);
+        }
+        sum
+    }
+}
+
+/// One entry of the palette: the rigid motion of a segment and its two stages of mass-spring fields.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentEntry {
+    /// World from rest: `M_k` of equation (18).
+    pub motion: Pose,
+    /// Sum of the fields with small radii.
+    pub local: SpringStage,
+    /// Sum of the fields with large radii.
+    pub global: SpringStage,
+}
+
+/// A collision field and the segment whose share of the skin it moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentField {
+    /// Segment index.
+    pub segment: u16,
+    /// The field.
+    pub field: CollisionField,
+}
+
+/// One pass of penetration cancellation: fields that are added up, each weighted with the vertex's weight for its
+/// segment. Passes are concatenated.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CollisionPass {
+    /// The fields of the pass.
+    pub fields: Vec<SegmentField>,
+    /// Integration steps.
+    pub steps: u32,
+}
+
+/// All parameters of one body's deformation in one frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Palette {
+    /// One entry a segment.
+    pub segments: Vec<SegmentEntry>,
+    /// Collision passes, concatenated in order.
+    pub passes: Vec<CollisionPass>,
+    /// Integration rule of all stages.
+    pub integrator: Integrator,
+}
