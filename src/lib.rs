@@ -8,8 +8,10 @@
 //! Modules, each importing only from those to its right:
 //! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`] → [`spring`], [`field`], [`mesh`] → [`math`].
 
+pub mod coupling;
 pub mod elastic;
 pub mod field;
 pub mod math;
 pub mod mesh;
 pub mod spring;
+pub mod world;

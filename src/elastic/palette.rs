@@ -119,3 +119,12 @@ pub struct Palette {
     /// Integration rule of all stages.
     pub integrator: Integrator,
 }
+
+impl Palette {
+    /// The largest number of integration steps of any stage that has fields.
+    pub fn most_steps(&self) -> u32 {
+        let stage = |stage: &SpringStage| if stage.fields.is_empty() { 0 } else { stage.steps };
+        let springs = self.segments.iter().map(|entry| stage(&entry.local).max(stage(&entry.global)));
+        springs.chain(self.passes.iter().map(|pass| pass.steps)).max().unwrap_or(0)
+    }
+}

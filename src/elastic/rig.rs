@@ -78,12 +78,21 @@ pub struct Joint {
 pub struct MassSpringSetRig {
     /// Index of the segment that carries the anchor.
     pub segment: usize,
+    /// Indices of further segments that the set deforms besides its own.
+    pub also: Vec<usize>,
     /// Anchor `p` in the rest pose of the mesh.
     pub anchor: Vec3,
     /// Radius of influence `r_o` in metres.
     pub radius: f32,
     /// Oscillator.
     pub spring: SpringCoefficients,
+}
+
+impl MassSpringSetRig {
+    /// True where the set is in the list of this segment (section 3.4).
+    pub fn affects(&self, segment: usize) -> bool {
+        self.segment == segment || self.also.contains(&segment)
+    }
 }
 
 /// How the body answers obstacles that it penetrates.

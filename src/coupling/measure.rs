@@ -1,0 +1,57 @@
+//! What a penetration looked like before the cancellation and what is left of it, by parry's exact queries.
+
+use rayon::prelude::*;
+
+use super::cancel::CancelReport;
+use super::contact::Proximity;
+use super::obstacle::ObstaclePart;
+use crate::elastic::ElasticBody;
+
+/// Depths and gaps as fractions of the body's size.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PenetrationFigures {
+    /// Largest depth along the way out before the cancellation.
+    pub max_depth_before: f32,
+    /// Largest exact depth of a vertex after it.
+    pub max_depth_after: f32,
+    /// Largest distance left between the skin and a part that a segment had penetrated.
+    pub max_gap: f32,
+    /// Vertices deeper than [`INSIDE`] after it.
+    pub vertices_inside: u32,
+}
+
+/// A vertex counts as inside from this depth on, as a fraction of the body's size.
+pub const INSIDE: f32 = 1.0e-3;
+
+/// Measures the skin of `body` against `parts`.
+pub fn measure(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    size: f32,
+    report: &CancelReport,
+) -> PenetrationFigures {
+    let mut touched: Vec<usize> = near.iter().map(|near| near.part).collect();
+    touched.sort_unstable();
+    touched.dedup();
+    let (deepest, inside) = body
+        .positions()
+        .par_iter()
+        .with_min_len(512)
+        .map(|&x| {
+            let depth = touched.iter().map(|&part| parts[part].exact_depth(x)).fold(0.0, f32::max);
+            (depth, u32::from(depth > INSIDE * size))
+        })
+        .reduce(|| (0.0, 0), |a, b| (a.0.max(b.0), a.1 + b.1));
+    let gap = |contact: &super::cancel::Contact| {
+        let part = &parts[contact.near.part];
+        let positions = contact.vertices.iter().map(|p| body.positions()[p.vertex as usize]);
+        positions.map(|x| part.shape.distance_to_point(&part.placed.pose, x, true)).fold(f32::INFINITY, f32::min)
+    };
+    PenetrationFigures {
+        max_depth_before: report.contacts.iter().map(|c| c.depth()).fold(0.0, f32::max) / size,
+        max_depth_after: deepest / size,
+        max_gap: report.contacts.iter().map(gap).fold(0.0, f32::max) / size,
+        vertices_inside: inside,
+    }
+}

@@ -1,0 +1,26 @@
+//! Between rapier and the elastic bodies: ragdolls, obstacles, repelling impulses, penetration cancellation.
+//!
+//! Rapier's sets are borrowed for a call; nothing of them is kept.
+
+mod cancel;
+mod contact;
+mod gauge;
+mod literal;
+mod magnitude;
+mod obstacle;
+
+pub use cancel::{CancelReport, CancelSettings, Contact, Penetration, Placement, cancel, find_contacts};
+pub use contact::{Proximity, moved_axis, penetration, way_out};
+pub use gauge::gauge_point;
+pub use magnitude::complementarity;
+pub use obstacle::{LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, convex_parts, decompose};
+mod foundation;
+mod measure;
+mod ragdoll;
+mod velocities;
+
+pub use foundation::{FoundationPoint, FoundationSettings, push_back, share};
+pub use measure::{INSIDE, PenetrationFigures, measure};
+pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_mass, segment_shape};
+mod surroundings;
+pub use surroundings::{WaysOut, obstacles_near, proximities};

@@ -1,0 +1,164 @@
+//! Obstacles: rapier's colliders as placed convex parts.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use rapier3d::geometry::{Collider, ColliderHandle};
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
+use rapier3d::parry::query::Ray;
+use rapier3d::parry::shape::{ShapeType, SharedShape, TypedShape};
+use rapier3d::parry::transformation::vhacd::VHACDParameters;
+
+use crate::field::{ConvexHull, ConvexPart, HullError, PartShape, PlacedPart};
+use crate::math::{Pose, Vec3};
+use crate::mesh::TriangleMesh;
+
+/// One convex part of a shape, in the shape's frame, in our form and in parry's.
+#[derive(Clone)]
+pub struct LocalPart {
+    /// Shape from part.
+    pub pose: Pose,
+    /// The part as the fields see it.
+    pub part: ConvexPart,
+    /// The part as parry sees it: for rays and exact queries.
+    pub shape: SharedShape,
+}
+
+/// A shape that has no convex parts of its own.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ObstacleError {
+    /// Decompose it first (see [`decompose`]).
+    #[error("a {0:?} collider is not convex: decompose it into convex parts first")]
+    NotConvex(ShapeType),
+    /// A hull without a volume.
+    #[error(transparent)]
+    Flat(#[from] HullError),
+}
+
+/// The convex parts of a shape.
+///
+/// # Errors
+/// [`ObstacleError`] where the shape, or a member of a compound, is not convex or has no volume.
+pub fn convex_parts(shape: &SharedShape) -> Result<Vec<LocalPart>, ObstacleError> {
+    if let TypedShape::Compound(compound) = shape.as_typed_shape() {
+        let mut parts = Vec::new();
+        for (pose, member) in compound.shapes() {
+            parts.extend(convex_parts(member)?.into_iter().map(|part| LocalPart { pose: *pose * part.pose, ..part }));
+        }
+        return Ok(parts);
+    }
+    let part = convex_part(shape)?;
+    Ok(vec![LocalPart { pose: Pose::IDENTITY, part, shape: shape.clone() }])
+}
+
+fn convex_part(shape: &SharedShape) -> Result<ConvexPart, ObstacleError> {
+    let hull = |points: &[Vec3]| ConvexHull::from_points(points).map(|hull| PartShape::Hull(Arc::new(hull)));
+    let (shape, rounding) = match shape.as_typed_shape() {
+        TypedShape::Ball(s) => (PartShape::Point, s.radius),
+        TypedShape::Capsule(s) => (PartShape::Segment { a: s.segment.a, b: s.segment.b }, s.radius),
+        TypedShape::Cuboid(s) => (PartShape::Cuboid { half_extents: s.half_extents }, 0.0),
+        TypedShape::RoundCuboid(s) => (PartShape::Cuboid { half_extents: s.inner_shape.half_extents }, s.border_radius),
+        TypedShape::Cylinder(s) => (PartShape::Cylinder { half_height: s.half_height, radius: s.radius }, 0.0),
+        TypedShape::RoundCylinder(s) => {
+            let inner = &s.inner_shape;
+            (PartShape::Cylinder { half_height: inner.half_height, radius: inner.radius }, s.border_radius)
+        }
+        TypedShape::Cone(s) => (PartShape::Cone { half_height: s.half_height, radius: s.radius }, 0.0),
+        TypedShape::RoundCone(s) => {
+            let inner = &s.inner_shape;
+            (PartShape::Cone { half_height: inner.half_height, radius: inner.radius }, s.border_radius)
+        }
+        TypedShape::HalfSpace(s) => (PartShape::HalfSpace { normal: s.normal }, 0.0),
+        TypedShape::ConvexPolyhedron(s) => (hull(s.points())?, 0.0),
+        TypedShape::RoundConvexPolyhedron(s) => (hull(s.inner_shape.points())?, s.border_radius),
+        _ => return Err(ObstacleError::NotConvex(shape.shape_type())),
+    };
+    Ok(ConvexPart { shape, rounding })
+}
+
+/// Decomposes a closed mesh into at most `max_parts` convex hulls with parry's VHACD: a compound shape for a collider.
+pub fn decompose(mesh: &TriangleMesh, max_parts: u32) -> SharedShape {
+    let parameters = VHACDParameters { max_convex_hulls: max_parts.max(1), ..Default::default() };
+    SharedShape::convex_decomposition_with_params(&mesh.positions, &mesh.triangles, &parameters)
+}
+
+/// Names a convex part of a collider for as long as the collider keeps its shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct PartId {
+    /// The collider, by index and generation.
+    pub collider: (u32, u32),
+    /// The part in it.
+    pub part: u32,
+}
+
+/// A convex part in the world.
+#[derive(Clone)]
+pub struct ObstaclePart {
+    /// Its name.
+    pub id: PartId,
+    /// Its collider.
+    pub collider: ColliderHandle,
+    /// As the fields see it.
+    pub placed: PlacedPart,
+    /// As parry sees it.
+    pub shape: SharedShape,
+    /// Bounding box in the world.
+    pub aabb: Aabb,
+}
+
+impl ObstaclePart {
+    /// How far `x` must move along `direction` (unit) to leave the part, if the part meets the segment from `x` to
+    /// `x + reach · direction`: positive both where `x` is inside the part and where the part lies before it.
+    pub fn exit(&self, x: Vec3, direction: Vec3, reach: f32) -> Option<f32> {
+        let end = x + direction * reach;
+        if !self.aabb.intersects(&Aabb::new(x.min(end), x.max(end))) {
+            return None;
+        }
+        let ray = Ray::new(end, -direction);
+        let hit = self.shape.cast_ray(&self.placed.pose, &ray, reach, true)?;
+        Some(reach - hit)
+    }
+
+    /// True where `x` is inside the part.
+    pub fn contains(&self, x: Vec3) -> bool {
+        self.aabb.contains_local_point(x) && self.placed.distance(x).0 == 0.0
+    }
+
+    /// Exact depth of `x` below the part's surface by parry's point projection, 0 outside.
+    pub fn exact_depth(&self, x: Vec3) -> f32 {
+        if !self.aabb.contains_local_point(x) {
+            return 0.0;
+        }
+        let projection = self.shape.project_point(&self.placed.pose, x, false);
+        if projection.is_inside { projection.point.distance(x) } else { 0.0 }
+    }
+}
+
+/// Convex parts by collider, kept as long as a collider keeps its shape: a cache, nothing more.
+#[derive(Default)]
+pub struct PartCache {
+    known: HashMap<ColliderHandle, (SharedShape, Result<Arc<[LocalPart]>, ObstacleError>)>,
+}
+
+impl PartCache {
+    /// The convex parts of a collider.
+    ///
+    /// # Errors
+    /// The same [`ObstacleError`] each time for a collider that has none.
+    pub fn parts(&mut self, handle: ColliderHandle, collider: &Collider) -> Result<Arc<[LocalPart]>, ObstacleError> {
+        let shape = collider.shared_shape();
+        match self.known.get(&handle) {
+            Some((known, parts)) if Arc::ptr_eq(&known.0, &shape.0) => parts.clone(),
+            _ => {
+                let parts = convex_parts(shape).map(Arc::from);
+                self.known.insert(handle, (shape.clone(), parts.clone()));
+                parts
+            }
+        }
+    }
+
+    /// Forgets colliders that are gone.
+    pub fn retain(&mut self, exists: impl Fn(ColliderHandle) -> bool) {
+        self.known.retain(|&handle, _| exists(handle));
+    }
+}

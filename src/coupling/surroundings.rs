@@ -1,0 +1,96 @@
+//! The obstacles around a body, and which of its segments is close to which of their parts.
+
+use std::collections::BTreeMap;
+
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::geometry::{Collider, ColliderHandle, InteractionGroups};
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
+use rapier3d::pipeline::QueryPipeline;
+
+use super::contact::{Proximity, moved_axis, way_out};
+use super::obstacle::{ObstacleError, ObstaclePart, PartCache, PartId};
+use crate::elastic::ElasticBody;
+use crate::field::PlacedPart;
+use crate::math::Vec3;
+
+/// The way out of each part that a segment was close to in the last step: the answer where the segment's axis itself is
+/// inside the part now.
+pub type WaysOut = BTreeMap<(u16, PartId), Vec3>;
+
+/// Collects the convex parts of all colliders near `region` that the body collides with.
+///
+/// Sensors, disabled colliders and the `own` bodies are left out; colliders that have no convex parts are reported in
+/// `refused`.
+pub fn obstacles_near(
+    query: &QueryPipeline<'_>,
+    region: &Aabb,
+    groups: InteractionGroups,
+    own: &dyn Fn(RigidBodyHandle) -> bool,
+    cache: &mut PartCache,
+    refused: &mut BTreeMap<(u32, u32), (ColliderHandle, ObstacleError)>,
+) -> Vec<ObstaclePart> {
+    let meets = |collider: &Collider| {
+        !collider.is_sensor()
+            && collider.is_enabled()
+            && collider.collision_groups().test(groups)
+            && !collider.parent().is_some_and(own)
+    };
+    let mut handles: Vec<(ColliderHandle, &Collider)> =
+        query.intersect_aabb_conservative(*region).filter(|(_, collider)| meets(collider)).collect();
+    // The tree's order depends on its history; ours must not.
+    handles.sort_by_key(|(handle, _)| handle.into_raw_parts());
+    let mut parts = Vec::new();
+    for (handle, collider) in handles {
+        let raw = handle.into_raw_parts();
+        match cache.parts(handle, collider) {
+            Err(error) => {
+                refused.insert(raw, (handle, error));
+            }
+            Ok(local) => {
+                for (index, local) in local.iter().enumerate() {
+                    let pose = *collider.position() * local.pose;
+                    let aabb = local.shape.compute_aabb(&pose);
+                    if pose.is_finite() && aabb.intersects(region) {
+                        parts.push(ObstaclePart {
+                            id: PartId { collider: raw, part: index as u32 },
+                            collider: handle,
+                            placed: PlacedPart::new(local.part.clone(), pose),
+                            shape: local.shape.clone(),
+                            aabb,
+                        });
+                    }
+                }
+            }
+        }
+    }
+    parts
+}
+
+/// The segments that are close to a part, each with its way out. Renews `ways`.
+pub fn proximities(body: &ElasticBody, parts: &[ObstaclePart], margin: f32, ways: &mut WaysOut) -> Vec<Proximity> {
+    let mut near = Vec::new();
+    let mut renewed = WaysOut::new();
+    for (segment, (skin, motion)) in body.skins().iter().zip(body.motions()).enumerate() {
+        let centre = motion.transform_point(skin.centroid);
+        let reach = Vec3::splat(skin.size + margin);
+        let region = Aabb::new(centre - reach, centre + reach);
+        let axis = moved_axis(motion, skin.axis);
+        for (index, part) in parts.iter().enumerate().filter(|(_, part)| part.aabb.intersects(&region)) {
+            let key = (segment as u16, part.id);
+            let remembered = ways.get(&key).map(|&normal| (normal, 0.5 * (axis[0] + axis[1])));
+            let Some((normal, axis_point)) = way_out(part, axis).or(remembered).or_else(|| from_centre(part, centre))
+            else {
+                continue;
+            };
+            renewed.insert(key, normal);
+            near.push(Proximity { segment: key.0, part: index, normal, axis_point });
+        }
+    }
+    *ways = renewed;
+    near
+}
+
+/// The last resort for a segment that appears inside a part: away from the middle of the part.
+fn from_centre(part: &ObstaclePart, centre: Vec3) -> Option<(Vec3, Vec3)> {
+    Some(((centre - part.aabb.center()).try_normalize()?, centre))
+}

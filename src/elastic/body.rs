@@ -1,0 +1,195 @@
+//! The state of one elastic body: where its segments are, how its mass-spring sets swing, what its skin looks like.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::palette::{Palette, SegmentEntry, SpringStage};
+use super::rest::SegmentSkin;
+use super::rig::ElasticRig;
+use crate::field::{Integrator, SpringField};
+use crate::math::{Pose, Vec3};
+use crate::spring::MassSpringSet;
+
+/// How a body is deformed; each has a sensible default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeformSettings {
+    /// Integration rule of the path lines.
+    pub integrator: Integrator,
+    /// Most integration steps of one stage; past them the displacements are pulled back.
+    pub max_steps: u32,
+    /// Acceleration that pulls at the free masses, in m/s² (zero: the rest shape is the shape under gravity).
+    pub gravity: Vec3,
+    /// Largest displacement of a mass-spring set as a fraction of its radius of influence.
+    pub displacement_limit: f32,
+    /// Viewer and threshold of the level of detail: a set is used only if `r_o > threshold · distance` (section 3.6).
+    pub level_of_detail: Option<LevelOfDetail>,
+    /// False: the skin follows the rigid bodies alone.
+    pub enabled: bool,
+}
+
+impl Default for DeformSettings {
+    fn default() -> Self {
+        Self {
+            integrator: Integrator::Midpoint,
+            max_steps: 24,
+            gravity: Vec3::ZERO,
+            displacement_limit: 0.5,
+            level_of_detail: None,
+            enabled: true,
+        }
+    }
+}
+
+/// Who looks, and how much detail they get (section 3.6).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelOfDetail {
+    /// Where the viewer is.
+    pub viewer: Vec3,
+    /// Sets with `r_o ≤ threshold · distance` are left out.
+    pub threshold: f32,
+}
+
+impl LevelOfDetail {
+    /// True where a set of this radius, anchored at `p`, is worth its cost.
+    pub fn keeps(&self, p: Vec3, radius: f32) -> bool {
+        radius > self.threshold * p.distance(self.viewer)
+    }
+}
+
+/// One elastic body. Rest data is shared; this is only what changes.
+#[derive(Clone, Debug)]
+pub struct ElasticBody {
+    rig: Arc<ElasticRig>,
+    skins: Arc<[SegmentSkin]>,
+    motions: Vec<Pose>,
+    sets: Vec<MassSpringSet>,
+    palette: Palette,
+    positions: Vec<Vec3>,
+    /// How the body is deformed.
+    pub settings: DeformSettings,
+}
+
+impl ElasticBody {
+    /// A body of this rig, at rest where the rig was modelled.
+    pub fn new(rig: Arc<ElasticRig>) -> Self {
+        let skins = (0..rig.segments.len()).map(|i| SegmentSkin::of(&rig, i)).collect();
+        let motions = vec![Pose::IDENTITY; rig.segments.len()];
+        let sets = rig.sets.iter().map(|set| MassSpringSet::at_rest(set.anchor)).collect();
+        let positions = rig.mesh.positions.clone();
+        let mut body = Self {
+            rig,
+            skins,
+            motions,
+            sets,
+            palette: Palette::default(),
+            positions,
+            settings: DeformSettings::default(),
+        };
+        body.build_palette();
+        body
+    }
+
+    /// The shared rest data.
+    pub fn rig(&self) -> &Arc<ElasticRig> {
+        &self.rig
+    }
+
+    /// What each segment owns of the skin.
+    pub fn skins(&self) -> &[SegmentSkin] {
+        &self.skins
+    }
+
+    /// World from rest of each segment.
+    pub fn motions(&self) -> &[Pose] {
+        &self.motions
+    }
+
+    /// The mass-spring sets.
+    pub fn sets(&self) -> &[MassSpringSet] {
+        &self.sets
+    }
+
+    /// The parameters of this frame's deformation.
+    pub fn palette(&self) -> &Palette {
+        &self.palette
+    }
+
+    /// The parameters of this frame's deformation, to add collision passes to.
+    pub fn palette_mut(&mut self) -> &mut Palette {
+        &mut self.palette
+    }
+
+    /// Deformed position of each vertex.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Moves the segments without moving the sets: for the first frame and for teleports.
+    pub fn place(&mut self, motions: &[Pose]) {
+        self.motions.copy_from_slice(motions);
+        for (state, set) in self.sets.iter_mut().zip(&self.rig.sets) {
+            *state = MassSpringSet::at_rest(motions[set.segment].transform_point(set.anchor));
+        }
+    }
+
+    /// Moves the segments and lets the mass-spring sets follow over `h` seconds.
+    ///
+    /// Returns false, and puts the sets to rest, where a state came out that is not finite.
+    pub fn move_springs(&mut self, motions: &[Pose], h: f32) -> bool {
+        self.motions.copy_from_slice(motions);
+        let DeformSettings { gravity, displacement_limit, .. } = self.settings;
+        let mut finite = true;
+        for (state, set) in self.sets.iter_mut().zip(&self.rig.sets) {
+            let p = motions[set.segment].transform_point(set.anchor);
+            *state = state.stepped(p, h, set.spring, gravity, displacement_limit * set.radius);
+            if !state.is_finite() {
+                *state = MassSpringSet::at_rest(p);
+                finite = false;
+            }
+        }
+        finite
+    }
+
+    /// Builds the palette of this frame from the segments and sets; it has no collision passes yet.
+    pub fn build_palette(&mut self) {
+        let DeformSettings { integrator, max_steps, level_of_detail, enabled, .. } = self.settings;
+        self.palette.integrator = integrator;
+        self.palette.passes.clear();
+        self.palette.segments.clear();
+        for (segment, motion) in self.motions.iter().enumerate() {
+            let mut stages = [Vec::new(), Vec::new()];
+            for (state, set) in self.sets.iter().zip(&self.rig.sets) {
+                let moves = enabled && set.affects(segment) && state.p != state.q;
+                if moves && level_of_detail.is_none_or(|detail| detail.keeps(state.p, set.radius)) {
+                    let stage = usize::from(set.radius >= self.rig.local_threshold);
+                    stages[stage].push(SpringField { p: state.p, q: state.q, radius: set.radius });
+                }
+            }
+            let [local, global] = stages.map(|fields| SpringStage::certified(fields, integrator, max_steps));
+            self.palette.segments.push(SegmentEntry { motion: *motion, local, global });
+        }
+    }
+
+    /// Deforms every vertex by the spring stages alone, in parallel.
+    pub fn deform_springs(&mut self) {
+        let Self { rig, palette, positions, .. } = self;
+        positions.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(|(v, position)| {
+            *position = palette.spring(rig.mesh.positions[v], &rig.weights[v]);
+        });
+    }
+
+    /// Carries every vertex through one more collision pass, in parallel, and keeps the pass in the palette.
+    pub fn deform_collision(&mut self, pass: super::CollisionPass) {
+        let integrator = self.palette.integrator;
+        let weights = &self.rig.weights;
+        self.positions.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(|(v, position)| {
+            *position = pass.flow(*position, &weights[v], integrator);
+        });
+        self.palette.passes.push(pass);
+    }
+}
+
+/// Vertices a task: small enough to share the work evenly, large enough not to drown in tasks. Results do not depend
+/// on it.
+const CHUNK: usize = 256;

@@ -1,0 +1,101 @@
+//! Rest data derived from a rig once: what each segment owns of the skin.
+
+use super::rig::{ElasticRig, SegmentShape, SkinWeights};
+use crate::math::Vec3;
+
+/// The part of the skin that one segment moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SegmentSkin {
+    /// Vertices whose weight for the segment is at least [`MEMBER_WEIGHT`].
+    pub vertices: Vec<u32>,
+    /// Largest distance of these vertices from their mean: the paper's measure of the size of a body (section 4.2).
+    pub size: f32,
+    /// Mean of these vertices in the rest pose.
+    pub centroid: Vec3,
+    /// Points of the skin, thinned out evenly, that feel the repelling impulse.
+    pub samples: Vec<SkinSample>,
+    /// The segment's axis: its bone shortened by the radius of its shape, in the rest pose. The axis lies deep inside,
+    /// so that the way from an obstacle to the axis is the way out of the obstacle.
+    pub axis: [Vec3; 2],
+}
+
+/// A point of the skin at rest with its outward normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkinSample {
+    /// Position in the rest pose.
+    pub position: Vec3,
+    /// Unit normal in the rest pose.
+    pub normal: Vec3,
+}
+
+/// A vertex belongs to a segment's contacts from this weight on.
+pub const MEMBER_WEIGHT: f32 = 0.05;
+
+/// Skin samples a segment: enough to feel a bar a tenth of the segment thick, few enough to solve together.
+pub const SAMPLES_PER_SEGMENT: usize = 128;
+
+impl SegmentSkin {
+    /// Collects what segment `index` of the rig owns.
+    pub fn of(rig: &ElasticRig, index: usize) -> Self {
+        let owns = |skin: &SkinWeights, least: f32| skin.weight_of(index as u16) >= least;
+        let positions = &rig.mesh.positions;
+        let vertices: Vec<u32> =
+            (0..positions.len() as u32).filter(|&v| owns(&rig.weights[v as usize], MEMBER_WEIGHT)).collect();
+        let sum: Vec3 = vertices.iter().map(|&v| positions[v as usize]).sum();
+        let centroid = if vertices.is_empty() { Vec3::ZERO } else { sum / vertices.len() as f32 };
+        let size = vertices.iter().map(|&v| positions[v as usize].distance(centroid)).fold(0.0, f32::max);
+        let core: Vec<u32> = vertices.iter().copied().filter(|&v| owns(&rig.weights[v as usize], 0.5)).collect();
+        let samples = thinned(positions, &core, SAMPLES_PER_SEGMENT)
+            .into_iter()
+            .map(|v| SkinSample { position: positions[v as usize], normal: rig.mesh.normals[v as usize] })
+            .collect();
+        Self { vertices, size, centroid, samples, axis: axis(rig, index) }
+    }
+}
+
+/// The bone, shortened at both ends by the shape's radius.
+fn axis(rig: &ElasticRig, index: usize) -> [Vec3; 2] {
+    let segment = &rig.segments[index];
+    let [a, b] = segment.bone;
+    let middle = 0.5 * (a + b);
+    let inset = match segment.shape {
+        SegmentShape::Ball { .. } => return [middle, middle],
+        SegmentShape::Capsule { radius } => radius,
+        SegmentShape::Cuboid { half_extents } => {
+            let half = half_extents.z - half_extents.x.min(half_extents.y);
+            let along = (b - a).normalize_or(Vec3::Z) * half.max(0.0);
+            return [middle - along, middle + along];
+        }
+    };
+    let length = (b - a).length();
+    if length <= 2.0 * inset {
+        return [middle, middle];
+    }
+    let step = (b - a) * (inset / length);
+    [a + step, b - step]
+}
+
+/// Farthest-point thinning: at most `count` of `vertices`, spread evenly, in a deterministic order.
+fn thinned(positions: &[Vec3], vertices: &[u32], count: usize) -> Vec<u32> {
+    let Some(&first) = vertices.first() else { return Vec::new() };
+    let mut chosen = vec![first];
+    let mut distance: Vec<f32> =
+        vertices.iter().map(|&v| positions[v as usize].distance_squared(positions[first as usize])).collect();
+    while chosen.len() < count {
+        let (mut farthest, mut best) = (0, 0.0);
+        for (i, &d) in distance.iter().enumerate() {
+            if d > best {
+                (farthest, best) = (i, d);
+            }
+        }
+        if best <= 0.0 {
+            break;
+        }
+        let next = vertices[farthest];
+        chosen.push(next);
+        for (d, &v) in distance.iter_mut().zip(vertices) {
+            *d = d.min(positions[v as usize].distance_squared(positions[next as usize]));
+        }
+    }
+    chosen
+}

@@ -1,0 +1,203 @@
+//! The set of elastic bodies beside a rapier world.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use rapier3d::data::arena::{Arena, Index};
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::geometry::InteractionGroups;
+use rapier3d::pipeline::PhysicsWorld;
+
+use super::report::StepReport;
+use super::view::{RapierSets, RapierView};
+use crate::coupling::{CancelSettings, FoundationSettings, PartCache, Ragdoll, RagdollStart, WaysOut};
+use crate::elastic::{ElasticBody, ElasticRig};
+
+/// Names an elastic body in its world, as rapier's handles do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ElasticBodyHandle(pub(super) Index);
+
+impl ElasticBodyHandle {
+    /// Index and generation.
+    pub fn into_raw_parts(self) -> (u32, u32) {
+        self.0.into_raw_parts()
+    }
+}
+
+impl PartialOrd for ElasticBodyHandle {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for ElasticBodyHandle {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.into_raw_parts().cmp(&other.into_raw_parts())
+    }
+}
+
+/// What all bodies of the world share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeformationSettings {
+    /// Penetration cancellation.
+    pub cancel: CancelSettings,
+    /// The implicit solve of the repelling impulses.
+    pub foundation: FoundationSettings,
+    /// Factor on the stiffness of all contacts.
+    pub stiffness: f32,
+    /// Measure depths, gaps and volumes after each step (they cost time, and nothing depends on them).
+    pub measure: bool,
+}
+
+impl Default for DeformationSettings {
+    fn default() -> Self {
+        Self {
+            cancel: CancelSettings::default(),
+            foundation: FoundationSettings::default(),
+            stiffness: 1.0,
+            measure: true,
+        }
+    }
+}
+
+/// Why a body was not inserted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InsertError {
+    /// A rig was given other than one rigid body a segment.
+    #[error("the rig has {segments} segments, but {bodies} rigid bodies were given: one a segment is needed")]
+    BodyCount {
+        /// Segments of the rig.
+        segments: usize,
+        /// Rigid bodies given.
+        bodies: usize,
+    },
+}
+
+/// One body with its ties to rapier.
+pub(super) struct Entry {
+    pub body: ElasticBody,
+    pub ragdoll: Ragdoll,
+    pub groups: InteractionGroups,
+    pub ways: WaysOut,
+    /// Size, mass and volume of the rig: the units of depths, stiffness and volume ratio.
+    pub size: f32,
+    pub mass: f32,
+    pub rest_volume: f64,
+}
+
+/// All elastic bodies of a rapier world.
+///
+/// Call [`DeformationWorld::step`] once after each step of rapier. Nothing of rapier is owned: its sets are borrowed for
+/// the call, and only handles are kept.
+#[derive(Default)]
+pub struct DeformationWorld {
+    /// Settings of all bodies.
+    pub settings: DeformationSettings,
+    pub(super) entries: Arena<Entry>,
+    pub(super) parts: PartCache,
+    pub(super) own: BTreeSet<(u32, u32)>,
+    pub(super) report: StepReport,
+}
+
+impl DeformationWorld {
+    /// An empty world.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Builds the ragdoll of a rig in rapier's sets and the elastic body on top of it.
+    pub fn insert<'a>(
+        &mut self,
+        rig: Arc<ElasticRig>,
+        start: &RagdollStart,
+        sets: impl Into<RapierSets<'a>>,
+    ) -> ElasticBodyHandle {
+        let sets = sets.into();
+        let ragdoll = Ragdoll::spawn(&rig, start, sets.bodies, sets.colliders, sets.joints);
+        let mut body = ElasticBody::new(rig);
+        let motions = vec![start.pose; body.motions().len()];
+        body.place(&motions);
+        body.build_palette();
+        body.deform_springs();
+        self.add(body, ragdoll, start.groups)
+    }
+
+    /// Puts an elastic body on top of rigid bodies that exist already, one a segment and in their order.
+    ///
+    /// # Errors
+    /// [`InsertError`] where the counts differ.
+    pub fn attach(
+        &mut self,
+        rig: Arc<ElasticRig>,
+        ragdoll: Ragdoll,
+        groups: InteractionGroups,
+    ) -> Result<ElasticBodyHandle, InsertError> {
+        let (segments, bodies) = (rig.segments.len(), ragdoll.bodies.len());
+        if segments != bodies {
+            return Err(InsertError::BodyCount { segments, bodies });
+        }
+        Ok(self.add(ElasticBody::new(rig), ragdoll, groups))
+    }
+
+    fn add(&mut self, body: ElasticBody, ragdoll: Ragdoll, groups: InteractionGroups) -> ElasticBodyHandle {
+        self.own.extend(ragdoll.bodies.iter().map(|handle| handle.into_raw_parts()));
+        let rig = body.rig().clone();
+        let entry = Entry {
+            size: rig.mesh.size(),
+            mass: rig.segments.iter().map(crate::coupling::segment_mass).sum(),
+            rest_volume: rig.mesh.volume(),
+            body,
+            ragdoll,
+            groups,
+            ways: WaysOut::new(),
+        };
+        ElasticBodyHandle(self.entries.insert(entry))
+    }
+
+    /// Removes an elastic body. Its rigid bodies stay: they are returned, to be removed from rapier or kept.
+    pub fn remove(&mut self, handle: ElasticBodyHandle) -> Option<Ragdoll> {
+        let entry = self.entries.remove(handle.0)?;
+        for body in &entry.ragdoll.bodies {
+            self.own.remove(&body.into_raw_parts());
+        }
+        Some(entry.ragdoll)
+    }
+
+    /// A body.
+    pub fn get(&self, handle: ElasticBodyHandle) -> Option<&ElasticBody> {
+        self.entries.get(handle.0).map(|entry| &entry.body)
+    }
+
+    /// A body, to change its settings.
+    pub fn get_mut(&mut self, handle: ElasticBodyHandle) -> Option<&mut ElasticBody> {
+        self.entries.get_mut(handle.0).map(|entry| &mut entry.body)
+    }
+
+    /// The rigid bodies and joints of a body.
+    pub fn ragdoll(&self, handle: ElasticBodyHandle) -> Option<&Ragdoll> {
+        self.entries.get(handle.0).map(|entry| &entry.ragdoll)
+    }
+
+    /// The elastic body that a rigid body belongs to.
+    pub fn owner(&self, rigid: RigidBodyHandle) -> Option<ElasticBodyHandle> {
+        self.iter().map(|(handle, _)| handle).find(|&handle| {
+            self.ragdoll(handle).is_some_and(|ragdoll| ragdoll.bodies.contains(&rigid))
+        })
+    }
+
+    /// All bodies.
+    pub fn iter(&self) -> impl Iterator<Item = (ElasticBodyHandle, &ElasticBody)> {
+        self.entries.iter().map(|(index, entry)| (ElasticBodyHandle(index), &entry.body))
+    }
+
+    /// What the last step did.
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// Moves and deforms all bodies after a step of `physics`, and gives their rigid bodies the repelling impulses
+    /// that act in rapier's next step. Never panics on the state of the world: see [`super::Frozen`].
+    pub fn step(&mut self, physics: &mut PhysicsWorld) -> &StepReport {
+        self.step_with(&mut RapierView::from(physics))
+    }
+}

@@ -1,0 +1,10 @@
+//! The deformation world: all elastic bodies of a rapier world, and the one verb that moves them.
+
+mod deformation_world;
+mod report;
+mod stages;
+mod view;
+
+pub use deformation_world::{DeformationSettings, DeformationWorld, ElasticBodyHandle, InsertError};
+pub use report::{BodyReport, Frozen, StageTimes, StepReport};
+pub use view::{RapierSets, RapierView};

@@ -1,0 +1,239 @@
+//! One step, stage by stage, in order.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use rapier3d::dynamics::RigidBodySet;
+use rapier3d::geometry::ColliderHandle;
+use rapier3d::parry::bounding_volume::Aabb;
+use rapier3d::pipeline::QueryFilter;
+
+use super::deformation_world::{DeformationSettings, DeformationWorld, ElasticBodyHandle, Entry};
+use super::report::{BodyReport, Frozen, StepReport};
+use super::view::RapierView;
+use crate::coupling::{
+    CancelReport, FoundationPoint, ObstacleError, ObstaclePart, Proximity, cancel, measure, obstacles_near, penetration,
+    proximities, push_back, share,
+};
+use crate::math::{Pose, Vec3};
+
+/// What one body meets in this step.
+struct Encounter {
+    handle: ElasticBodyHandle,
+    frozen: Option<Frozen>,
+    motions: Vec<Pose>,
+    parts: Vec<ObstaclePart>,
+    near: Vec<Proximity>,
+    cancelled: CancelReport,
+}
+
+impl DeformationWorld {
+    /// [`DeformationWorld::step`] for separate sets.
+    pub fn step_with(&mut self, rapier: &mut RapierView<'_>) -> &StepReport {
+        let mut report = StepReport::default();
+        let mut encounters = self.read_parents(rapier.bodies);
+
+        let clock = Instant::now();
+        self.move_springs(&mut encounters, rapier.dt);
+        report.times.springs = lap(clock);
+
+        let clock = Instant::now();
+        self.find_obstacles(&mut encounters, rapier, &mut report);
+        self.push_bodies_back(&encounters, rapier);
+        report.times.contact = lap(clock);
+
+        let clock = Instant::now();
+        self.deform_by_springs(&encounters);
+        report.times.deform = lap(clock);
+
+        let clock = Instant::now();
+        self.cancel_penetrations(&mut encounters);
+        report.times.contact += lap(clock);
+
+        let clock = Instant::now();
+        self.write_report(&mut encounters, &mut report);
+        report.times.measure = lap(clock);
+        self.report = report;
+        &self.report
+    }
+
+    /// Where every segment is now; bodies whose parents vanished, are disabled or not finite are frozen.
+    fn read_parents(&self, bodies: &RigidBodySet) -> Vec<Encounter> {
+        let read = |(index, entry): (_, &Entry)| {
+            let (frozen, motions) = match read_motions(entry, bodies) {
+                Ok(motions) => (None, motions),
+                Err(frozen) => (Some(frozen), Vec::new()),
+            };
+            let handle = ElasticBodyHandle(index);
+            Encounter {
+                handle,
+                frozen,
+                motions,
+                parts: Vec::new(),
+                near: Vec::new(),
+                cancelled: CancelReport::default(),
+            }
+        };
+        self.entries.iter().map(read).collect()
+    }
+
+    /// The mass-spring sets follow their anchors.
+    fn move_springs(&mut self, encounters: &mut [Encounter], dt: f32) {
+        for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
+            let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
+            if !entry.body.move_springs(&encounter.motions, dt) {
+                encounter.frozen = Some(Frozen::NotFinite);
+            }
+        }
+    }
+
+    /// The convex parts around each body, and the segments that are close to them.
+    fn find_obstacles(&mut self, encounters: &mut [Encounter], rapier: &RapierView<'_>, report: &mut StepReport) {
+        let query = rapier.broad_phase.as_query_pipeline(
+            rapier.narrow_phase.query_dispatcher(),
+            rapier.bodies,
+            rapier.colliders,
+            QueryFilter::default(),
+        );
+        let mut refused: BTreeMap<(u32, u32), (ColliderHandle, ObstacleError)> = BTreeMap::new();
+        self.parts.retain(|handle| rapier.colliders.get(handle).is_some());
+        for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
+            let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
+            let own = |handle: rapier3d::dynamics::RigidBodyHandle| self.own.contains(&handle.into_raw_parts());
+            let region = region_of(entry);
+            encounter.parts =
+                obstacles_near(&query, &region, entry.groups, &own, &mut self.parts, &mut refused);
+            let margin = swing(entry);
+            encounter.near = proximities(&entry.body, &encounter.parts, margin, &mut entry.ways);
+        }
+        report.refused = refused.into_values().collect();
+    }
+
+    /// Repelling impulses in proportion to the depth, all bodies together.
+    fn push_bodies_back(&self, encounters: &[Encounter], rapier: &mut RapierView<'_>) {
+        let mut points = Vec::new();
+        for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
+            let Some(entry) = self.entries.get(encounter.handle.0) else { continue };
+            for near in &encounter.near {
+                let contact = foundation_points(entry, &encounter.parts[near.part], near, rapier, &self.settings);
+                points.extend(contact);
+            }
+        }
+        push_back(&points, rapier.gravity, rapier.dt, self.settings.foundation, rapier.bodies);
+    }
+
+    /// Local and global spring stages on every vertex.
+    fn deform_by_springs(&mut self, encounters: &[Encounter]) {
+        for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
+            if let Some(entry) = self.entries.get_mut(encounter.handle.0) {
+                entry.body.build_palette();
+                entry.body.deform_springs();
+            }
+        }
+    }
+
+    /// The collision stage: what is left of the penetration vanishes from the visible surface.
+    fn cancel_penetrations(&mut self, encounters: &mut [Encounter]) {
+        for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
+            let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
+            if entry.body.settings.enabled {
+                let settings = &self.settings.cancel;
+                encounter.cancelled =
+                    cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
+            }
+        }
+    }
+
+    fn write_report(&self, encounters: &mut Vec<Encounter>, report: &mut StepReport) {
+        for encounter in encounters.drain(..) {
+            let Some(entry) = self.entries.get(encounter.handle.0) else { continue };
+            let mut figures = BodyReport {
+                frozen: encounter.frozen,
+                volume_ratio: 1.0,
+                passes: encounter.cancelled.passes,
+                steps: entry.body.palette().most_steps(),
+                ..BodyReport::default()
+            };
+            if self.settings.measure && encounter.frozen.is_none() {
+                let Encounter { parts, near, cancelled, .. } = &encounter;
+                figures.penetration = measure(&entry.body, parts, near, entry.size, cancelled);
+                let volume = crate::mesh::volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
+                figures.volume_ratio = (volume / entry.rest_volume) as f32;
+            }
+            report.bodies.push((encounter.handle, figures));
+        }
+    }
+}
+
+fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Frozen> {
+    let rest = &entry.body.rig().rest_poses;
+    let motion = |(handle, rest): (_, &Pose)| {
+        let body = bodies.get(handle).ok_or(Frozen::ParentRemoved)?;
+        if !body.is_enabled() {
+            return Err(Frozen::ParentDisabled);
+        }
+        let motion = *body.position() * rest.inverse();
+        if motion.is_finite() { Ok(motion) } else { Err(Frozen::NotFinite) }
+    };
+    entry.ragdoll.bodies.iter().copied().zip(rest).map(motion).collect()
+}
+
+/// How far the springs may carry the skin beyond the rigid segments.
+fn swing(entry: &Entry) -> f32 {
+    entry.body.sets().iter().map(|set| set.displacement().length()).fold(0.0, f32::max)
+}
+
+/// Everything that the skin of a body may touch.
+fn region_of(entry: &Entry) -> Aabb {
+    let mut mins = Vec3::INFINITY;
+    let mut maxs = Vec3::NEG_INFINITY;
+    for (skin, motion) in entry.body.skins().iter().zip(entry.body.motions()) {
+        let centre = motion.transform_point(skin.centroid);
+        mins = mins.min(centre - skin.size);
+        maxs = maxs.max(centre + skin.size);
+    }
+    let margin = swing(entry);
+    Aabb::new(mins - margin, maxs + margin)
+}
+
+/// The thinned skin points of one segment that are inside one part, with their shares of the contact's stiffness.
+fn foundation_points(
+    entry: &Entry,
+    part: &ObstaclePart,
+    near: &Proximity,
+    rapier: &RapierView<'_>,
+    settings: &DeformationSettings,
+) -> Vec<FoundationPoint> {
+    let segment = usize::from(near.segment);
+    let skin = &entry.body.skins()[segment];
+    let motion = entry.body.motions()[segment];
+    let Some(collider) = rapier.colliders.get(part.collider) else { return Vec::new() };
+    let contact = &entry.body.rig().contact;
+    let friction = 0.5 * (contact.friction + collider.friction());
+    let inward = motion.rotation.inverse() * near.normal;
+    let mut points: Vec<FoundationPoint> = skin
+        .samples
+        .iter()
+        .filter_map(|sample| {
+            let position = motion.transform_point(sample.position);
+            let depth = penetration(part, near, position, sample.normal.dot(inward), 2.0 * skin.size)?;
+            (depth > 0.0).then_some(FoundationPoint {
+                body: entry.ragdoll.bodies[segment],
+                other: collider.parent(),
+                position,
+                normal: near.normal,
+                depth,
+                stiffness: 0.0,
+                damping: 0.0,
+                friction,
+            })
+        })
+        .collect();
+    let (stiffness, damping) = contact.spring.stiffness_damping(entry.mass);
+    share(&mut points, stiffness * settings.stiffness, damping * settings.stiffness.sqrt());
+    points
+}
+
+fn lap(clock: Instant) -> f32 {
+    clock.elapsed().as_secs_f32() * 1.0e3
+}
