@@ -1,4 +1,22 @@
-//! Triangle meshes: what a skin is at rest.
+//! Triangle meshes: what a skin is at rest, how it is read, written, measured and judged.
 
+mod atomic_file;
+mod error;
+pub mod measure;
+mod normals;
+mod obj_read;
+mod obj_scan;
+mod obj_write;
+mod polygon;
+mod topology;
 mod triangle_mesh;
+mod welding;
+
+pub use atomic_file::AtomicFile;
+pub use error::{MeshError, ObjFault};
+pub use normals::{NormalTopology, vertex_normals};
+pub use obj_read::{MAX_OBJ_BYTES, ObjReport, load_obj, load_obj_with_report};
+pub use obj_write::write_obj;
+pub use topology::{Edge, Orientation, Topology};
 pub use triangle_mesh::TriangleMesh;
+pub use welding::{WELD_TOLERANCE, weld};
