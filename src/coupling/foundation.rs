@@ -28,6 +28,9 @@ pub struct FoundationPoint {
     pub damping: f32,
     /// Friction coefficient.
     pub friction: f32,
+    /// Fastest speed along the normal at which the spring may send the point out, in m/s: what it came in with. A stiff
+    /// spring that finds itself deep after one long step would otherwise make energy out of nothing.
+    pub release: f32,
 }
 
 /// Substeps and sweeps of the implicit solve.
@@ -82,6 +85,9 @@ pub fn push_back(
     let mut velocities = Velocities::default();
     let mut rows = Vec::with_capacity(points.len());
     for point in points {
+        if sleeps(point, bodies) {
+            continue;
+        }
         let Some(a) = velocities.index(point.body, bodies) else { continue };
         let b = point.other.and_then(|other| velocities.index(other, bodies));
         rows.push((point, row(point, a, b, &velocities)));
@@ -105,6 +111,14 @@ pub fn push_back(
         }
     }
     velocities.write(gravity, dt, bodies);
+}
+
+/// A body that rapier has put to sleep on an obstacle that does not move stays asleep.
+fn sleeps(point: &FoundationPoint, bodies: &RigidBodySet) -> bool {
+    let still = |handle: RigidBodyHandle| {
+        bodies.get(handle).is_none_or(|body| body.is_sleeping() || body.is_fixed() || !body.is_moving())
+    };
+    bodies.get(point.body).is_none_or(|body| body.is_sleeping()) && point.other.is_none_or(still)
 }
 
 fn row(point: &FoundationPoint, a: usize, b: Option<usize>, velocities: &Velocities) -> Row {
@@ -139,7 +153,8 @@ fn press(point: &FoundationPoint, row: &mut Row, h: f32, velocities: &mut Veloci
     let v = relative_velocity(point, row, velocities).dot(point.normal);
     let softness = h * (h * point.stiffness + point.damping);
     let change = (h * point.stiffness * row.depth - softness * v - row.pressure) / (1.0 + softness * row.response);
-    let pressure = (row.pressure + change).max(0.0);
+    let room = (point.release - v).max(0.0) / row.response.max(f32::MIN_POSITIVE);
+    let pressure = (row.pressure + change.min(room)).max(0.0);
     let impulse = pressure - row.pressure;
     row.pressure = pressure;
     apply(point, row, point.normal * impulse, velocities);

@@ -23,4 +23,4 @@ pub use foundation::{FoundationPoint, FoundationSettings, push_back, share};
 pub use measure::{INSIDE, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_mass, segment_shape};
 mod surroundings;
-pub use surroundings::{WaysOut, obstacles_near, proximities};
+pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities};

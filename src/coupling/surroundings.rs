@@ -13,9 +13,31 @@ use crate::elastic::ElasticBody;
 use crate::field::PlacedPart;
 use crate::math::Vec3;
 
-/// The way out of each part that a segment was close to in the last step: the answer where the segment's axis itself is
-/// inside the part now.
-pub type WaysOut = BTreeMap<(u16, PartId), Vec3>;
+/// What is remembered of a segment close to a part from one step to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactMemory {
+    /// The way out: the answer where the segment's axis itself is inside the part now.
+    pub normal: Vec3,
+    /// Largest speed at which the skin has come in within the last period of the contact's spring, in m/s: it never
+    /// leaves faster.
+    pub approach: f32,
+    /// Seconds since then.
+    pub age: f32,
+}
+
+impl ContactMemory {
+    /// Remembers this step's approach speed; what is older than `period` seconds is forgotten.
+    pub fn remember(&mut self, approach: f32, dt: f32, period: f32) {
+        self.age += dt;
+        if approach >= self.approach || self.age > period {
+            self.approach = approach;
+            self.age = 0.0;
+        }
+    }
+}
+
+/// The memory of all contacts of a body.
+pub type ContactMemories = BTreeMap<(u16, PartId), ContactMemory>;
 
 /// Collects the convex parts of all colliders near `region` that the body collides with.
 ///
@@ -66,10 +88,15 @@ pub fn obstacles_near(
     parts
 }
 
-/// The segments that are close to a part, each with its way out. Renews `ways`.
-pub fn proximities(body: &ElasticBody, parts: &[ObstaclePart], margin: f32, ways: &mut WaysOut) -> Vec<Proximity> {
+/// The segments that are close to a part, each with its way out. Renews `memories`.
+pub fn proximities(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    margin: f32,
+    memories: &mut ContactMemories,
+) -> Vec<Proximity> {
     let mut near = Vec::new();
-    let mut renewed = WaysOut::new();
+    let mut renewed = ContactMemories::new();
     for (segment, (skin, motion)) in body.skins().iter().zip(body.motions()).enumerate() {
         let centre = motion.transform_point(skin.centroid);
         let reach = Vec3::splat(skin.size + margin);
@@ -77,16 +104,18 @@ pub fn proximities(body: &ElasticBody, parts: &[ObstaclePart], margin: f32, ways
         let axis = moved_axis(motion, skin.axis);
         for (index, part) in parts.iter().enumerate().filter(|(_, part)| part.aabb.intersects(&region)) {
             let key = (segment as u16, part.id);
-            let remembered = ways.get(&key).map(|&normal| (normal, 0.5 * (axis[0] + axis[1])));
+            let memory = memories.get(&key);
+            let remembered = memory.map(|memory| (memory.normal, 0.5 * (axis[0] + axis[1])));
             let Some((normal, axis_point)) = way_out(part, axis).or(remembered).or_else(|| from_centre(part, centre))
             else {
                 continue;
             };
-            renewed.insert(key, normal);
+            let fresh = ContactMemory { normal, approach: 0.0, age: 0.0 };
+            renewed.insert(key, memory.map_or(fresh, |memory| ContactMemory { normal, ..*memory }));
             near.push(Proximity { segment: key.0, part: index, normal, axis_point });
         }
     }
-    *ways = renewed;
+    *memories = renewed;
     near
 }
 

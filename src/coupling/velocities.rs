@@ -110,8 +110,10 @@ impl Velocities {
             if let Some(body) = bodies.get_mut(entry.handle)
                 && (linear, entry.angular) != entry.start
             {
-                body.set_linvel(linear, false);
-                body.set_angvel(entry.angular, false);
+                // Setting without waking would pile up velocity in a body that rapier does not move.
+                let wake = body.is_sleeping();
+                body.set_linvel(linear, wake);
+                body.set_angvel(entry.angular, wake);
             }
         }
     }

@@ -36,6 +36,13 @@ impl SpringCoefficients {
         (mass * omega * omega, 2.0 * self.damping_ratio * mass * omega)
     }
 
+    /// The speed after half an oscillation over the speed before it, `exp(−π ζ / √(1 − ζ²))`: what a bounce off such a
+    /// spring leaves. 0 from critical damping on.
+    pub fn restitution(&self) -> f32 {
+        let zeta = self.damping_ratio;
+        if zeta >= 1.0 { 0.0 } else { (-std::f32::consts::PI * zeta / (1.0 - zeta * zeta).sqrt()).exp() }
+    }
+
     /// True when both figures are finite, the frequency positive and the ratio not negative.
     pub fn is_valid(&self) -> bool {
         self.natural_frequency.is_finite()

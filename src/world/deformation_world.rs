@@ -10,7 +10,7 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use super::report::StepReport;
 use super::view::{RapierSets, RapierView};
-use crate::coupling::{CancelSettings, FoundationSettings, PartCache, Ragdoll, RagdollStart, WaysOut};
+use crate::coupling::{CancelSettings, ContactMemories, FoundationSettings, PartCache, Ragdoll, RagdollStart};
 use crate::elastic::{ElasticBody, ElasticRig};
 
 /// Names an elastic body in its world, as rapier's handles do.
@@ -78,7 +78,7 @@ pub(super) struct Entry {
     pub body: ElasticBody,
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
-    pub ways: WaysOut,
+    pub memories: ContactMemories,
     /// Size, mass and volume of the rig: the units of depths, stiffness and volume ratio.
     pub size: f32,
     pub mass: f32,
@@ -149,7 +149,7 @@ impl DeformationWorld {
             body,
             ragdoll,
             groups,
-            ways: WaysOut::new(),
+            memories: ContactMemories::new(),
         };
         ElasticBodyHandle(self.entries.insert(entry))
     }
@@ -180,9 +180,9 @@ impl DeformationWorld {
 
     /// The elastic body that a rigid body belongs to.
     pub fn owner(&self, rigid: RigidBodyHandle) -> Option<ElasticBodyHandle> {
-        self.iter().map(|(handle, _)| handle).find(|&handle| {
-            self.ragdoll(handle).is_some_and(|ragdoll| ragdoll.bodies.contains(&rigid))
-        })
+        self.iter()
+            .map(|(handle, _)| handle)
+            .find(|&handle| self.ragdoll(handle).is_some_and(|ragdoll| ragdoll.bodies.contains(&rigid)))
     }
 
     /// All bodies.

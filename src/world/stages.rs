@@ -12,8 +12,8 @@ use super::deformation_world::{DeformationSettings, DeformationWorld, ElasticBod
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, FoundationPoint, ObstacleError, ObstaclePart, Proximity, cancel, measure, obstacles_near, penetration,
-    proximities, push_back, share,
+    CancelReport, FoundationPoint, ObstacleError, ObstaclePart, Proximity, cancel, measure, obstacles_near,
+    penetration, proximities, push_back, share,
 };
 use crate::math::{Pose, Vec3};
 
@@ -101,19 +101,18 @@ impl DeformationWorld {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             let own = |handle: rapier3d::dynamics::RigidBodyHandle| self.own.contains(&handle.into_raw_parts());
             let region = region_of(entry);
-            encounter.parts =
-                obstacles_near(&query, &region, entry.groups, &own, &mut self.parts, &mut refused);
+            encounter.parts = obstacles_near(&query, &region, entry.groups, &own, &mut self.parts, &mut refused);
             let margin = swing(entry);
-            encounter.near = proximities(&entry.body, &encounter.parts, margin, &mut entry.ways);
+            encounter.near = proximities(&entry.body, &encounter.parts, margin, &mut entry.memories);
         }
         report.refused = refused.into_values().collect();
     }
 
     /// Repelling impulses in proportion to the depth, all bodies together.
-    fn push_bodies_back(&self, encounters: &[Encounter], rapier: &mut RapierView<'_>) {
+    fn push_bodies_back(&mut self, encounters: &[Encounter], rapier: &mut RapierView<'_>) {
         let mut points = Vec::new();
         for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
-            let Some(entry) = self.entries.get(encounter.handle.0) else { continue };
+            let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             for near in &encounter.near {
                 let contact = foundation_points(entry, &encounter.parts[near.part], near, rapier, &self.settings);
                 points.extend(contact);
@@ -138,8 +137,7 @@ impl DeformationWorld {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             if entry.body.settings.enabled {
                 let settings = &self.settings.cancel;
-                encounter.cancelled =
-                    cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
+                encounter.cancelled = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
             }
         }
     }
@@ -157,7 +155,8 @@ impl DeformationWorld {
             if self.settings.measure && encounter.frozen.is_none() {
                 let Encounter { parts, near, cancelled, .. } = &encounter;
                 figures.penetration = measure(&entry.body, parts, near, entry.size, cancelled);
-                let volume = crate::mesh::volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
+                let volume =
+                    crate::mesh::measure::signed_volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
                 figures.volume_ratio = (volume / entry.rest_volume) as f32;
             }
             report.bodies.push((encounter.handle, figures));
@@ -198,7 +197,7 @@ fn region_of(entry: &Entry) -> Aabb {
 
 /// The thinned skin points of one segment that are inside one part, with their shares of the contact's stiffness.
 fn foundation_points(
-    entry: &Entry,
+    entry: &mut Entry,
     part: &ObstaclePart,
     near: &Proximity,
     rapier: &RapierView<'_>,
@@ -208,7 +207,7 @@ fn foundation_points(
     let skin = &entry.body.skins()[segment];
     let motion = entry.body.motions()[segment];
     let Some(collider) = rapier.colliders.get(part.collider) else { return Vec::new() };
-    let contact = &entry.body.rig().contact;
+    let contact = entry.body.rig().contact;
     let friction = 0.5 * (contact.friction + collider.friction());
     let inward = motion.rotation.inverse() * near.normal;
     let mut points: Vec<FoundationPoint> = skin
@@ -226,12 +225,34 @@ fn foundation_points(
                 stiffness: 0.0,
                 damping: 0.0,
                 friction,
+                release: 0.0,
             })
         })
         .collect();
+    let approach = points.iter().map(|point| approach_speed(point, rapier.bodies)).fold(0.0, f32::max);
+    let stiffness_factor = settings.stiffness;
+    let period = 1.0 / (contact.spring.natural_frequency * stiffness_factor.sqrt());
+    let release = entry.memories.get_mut(&(near.segment, part.id)).map_or(approach, |memory| {
+        memory.remember(approach, rapier.dt, period);
+        memory.approach
+    });
+    let release = release * contact.spring.restitution();
+    for point in &mut points {
+        point.release = release.max(RECOVERY * point.depth / rapier.dt);
+    }
     let (stiffness, damping) = contact.spring.stiffness_damping(entry.mass);
-    share(&mut points, stiffness * settings.stiffness, damping * settings.stiffness.sqrt());
+    share(&mut points, stiffness * stiffness_factor, damping * stiffness_factor.sqrt());
     points
+}
+
+/// A point that is inside an obstacle without any speed is let out by at most this fraction of its depth a step.
+const RECOVERY: f32 = 0.1;
+
+/// The speed at which a point of the skin goes into an obstacle.
+fn approach_speed(point: &FoundationPoint, bodies: &RigidBodySet) -> f32 {
+    let velocity = |handle| bodies.get(handle).map_or(Vec3::ZERO, |body| body.velocity_at_point(point.position));
+    let relative = velocity(point.body) - point.other.map_or(Vec3::ZERO, velocity);
+    -relative.dot(point.normal)
 }
 
 fn lap(clock: Instant) -> f32 {
