@@ -150,7 +150,7 @@ fn contacts_of_any_stiffness_come_to_rest_and_never_gain_energy() {
             let spring = SpringCoefficients::new(frequency, damping_ratio);
             let mut drop = Drop::new(Vec3::new(0.0, 1.5, 0.0), Vec3::ZERO, spring);
             drop.wall(Vec3::new(0.0, -5.0, 0.0), Vec3::new(50.0, 5.0, 50.0));
-            let mut highest_later = 0.0_f32;
+            let (mut low, mut high) = (f32::INFINITY, 0.0_f32);
             for frame in 0..600 {
                 drop.step();
                 assert!(
@@ -158,14 +158,11 @@ fn contacts_of_any_stiffness_come_to_rest_and_never_gain_energy() {
                     "{frequency} Hz, ratio {damping_ratio}: rose to {}",
                     drop.centre()
                 );
-                if frame > 60 {
-                    highest_later = highest_later.max(drop.centre().y);
+                if frame >= 540 {
+                    (low, high) = (low.min(drop.centre().y), high.max(drop.centre().y));
                 }
             }
-            println!("{frequency} {damping_ratio}: rest {} rebound {highest_later}", drop.centre());
-            let body = drop.deformation.ragdoll(drop.ball).expect("a ragdoll").bodies[0];
-            let speed = drop.physics.bodies[body].linvel().length();
-            assert!(speed < 0.2, "{frequency} Hz, ratio {damping_ratio}: still at {speed} m/s");
+            assert!(high - low < 0.01, "{frequency} Hz, ratio {damping_ratio}: still moves between {low} and {high}");
         }
     }
 }

@@ -5,6 +5,14 @@ mod deform;
 mod palette;
 mod rest;
 mod rig;
+mod rig_builder;
+mod rig_checks;
+mod rig_fault;
+mod rig_file;
+mod rig_raw;
+mod toml_text;
+mod weight_regions;
+mod weights;
 
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
 pub use palette::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SpringStage};
@@ -13,3 +21,8 @@ pub use rig::{
     ContactSettings, ElasticRig, Joint, MAX_INFLUENCES, MassSpringSetRig, Segment, SegmentMass, SegmentShape,
     SkinWeights,
 };
+pub use rig_builder::{DEFAULT_LOCAL_THRESHOLD, DEFAULT_SOFTNESS, ElasticRigBuilder, rest_pose};
+pub use rig_fault::{RigFault, RigFaultKind, RigPlace, RigTable};
+pub use rig_file::{RigError, load_rig};
+pub use toml_text::{MAX_TOML_BYTES, TomlError, TomlKey, TomlText, did_you_mean};
+pub use weights::{MAX_SEGMENTS, WeightOptions, WeightsError, compute_weights};
