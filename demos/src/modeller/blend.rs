@@ -20,10 +20,7 @@ pub fn carve(body: f32, tool: f32, reach: f32) -> f32 {
 /// Exponential union of many surfaces, which does not depend on their order.
 pub fn unite_all(distances: &[f32], reach: f32) -> f32 {
     let nearest = distances.iter().copied().fold(f32::INFINITY, f32::min);
-    let sum: f32 = distances
-        .iter()
-        .map(|d| ((nearest - d) / reach).exp())
-        .sum();
+    let sum: f32 = distances.iter().map(|d| ((nearest - d) / reach).exp()).sum();
     nearest - reach * sum.ln()
 }
 

@@ -11,8 +11,7 @@ pub trait Field {
     /// The gradient at `p`, by central differences.
     fn gradient(&self, p: Vec3) -> Vec3 {
         const STEP: f32 = 1e-3;
-        let slope =
-            |axis: Vec3| (self.distance(p + axis * STEP) - self.distance(p - axis * STEP)) / (2.0 * STEP);
+        let slope = |axis: Vec3| (self.distance(p + axis * STEP) - self.distance(p - axis * STEP)) / (2.0 * STEP);
         Vec3::new(slope(Vec3::X), slope(Vec3::Y), slope(Vec3::Z))
     }
 

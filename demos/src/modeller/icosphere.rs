@@ -41,20 +41,13 @@ fn icosahedron() -> Mesh {
             }
         }
     }
-    Mesh {
-        positions,
-        triangles,
-    }
+    Mesh { positions, triangles }
 }
 
 /// The triangle turned so that it faces away from the origin.
 fn outward(positions: &[Vec3], [a, b, c]: [u32; 3]) -> [u32; 3] {
     let [pa, pb, pc] = [a, b, c].map(|v| positions[v as usize]);
-    if pa.dot(pb.cross(pc)) > 0.0 {
-        [a, b, c]
-    } else {
-        [a, c, b]
-    }
+    if pa.dot(pb.cross(pc)) > 0.0 { [a, b, c] } else { [a, c, b] }
 }
 
 /// Every triangle becomes four, by a vertex in the middle of every edge, lifted onto the unit sphere.
@@ -64,20 +57,15 @@ fn split_in_four(mesh: &Mesh) -> Mesh {
     let mut triangles = Vec::with_capacity(mesh.triangles.len() * 4);
     for &[a, b, c] in &mesh.triangles {
         let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(from, to)| {
-            *middles
-                .entry((from.min(to), from.max(to)))
-                .or_insert_with(|| {
-                    let [start, end] = [from, to].map(|v| positions[v as usize].normalize());
-                    positions.push((start + end).normalize());
-                    positions.len() as u32 - 1
-                })
+            *middles.entry((from.min(to), from.max(to))).or_insert_with(|| {
+                let [start, end] = [from, to].map(|v| positions[v as usize].normalize());
+                positions.push((start + end).normalize());
+                positions.len() as u32 - 1
+            })
         });
         triangles.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
     }
-    Mesh {
-        positions,
-        triangles,
-    }
+    Mesh { positions, triangles }
 }
 
 #[cfg(test)]

@@ -55,10 +55,7 @@ impl Mesh {
                 normals[v as usize] += weighted;
             }
         }
-        normals
-            .into_iter()
-            .map(|n| n.normalize_or(Vec3::Y))
-            .collect()
+        normals.into_iter().map(|n| n.normalize_or(Vec3::Y)).collect()
     }
 
     /// Every edge once, as (smaller, larger), in order.
@@ -82,9 +79,7 @@ impl Mesh {
                 *senses.entry(edge).or_default() += 1;
             }
         }
-        senses
-            .iter()
-            .all(|(&(a, b), &count)| count == 1 && senses.get(&(b, a)) == Some(&1))
+        senses.iter().all(|(&(a, b), &count)| count == 1 && senses.get(&(b, a)) == Some(&1))
     }
 
     /// Vertices minus edges plus triangles: 2 for anything that could be blown up into a ball.

@@ -5,6 +5,7 @@ pub mod blend;
 pub mod camel;
 pub mod field;
 pub mod icosphere;
+pub mod mend;
 pub mod mesh;
 pub mod obj;
 pub mod quality;

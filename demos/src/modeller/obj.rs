@@ -35,10 +35,7 @@ mod tests {
 
     #[test]
     fn the_text_counts_vertices_from_one() {
-        let mesh = Mesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-            triangles: vec![[0, 1, 2]],
-        };
+        let mesh = Mesh { positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y], triangles: vec![[0, 1, 2]] };
         let text = text_of(&mesh);
         assert!(text.starts_with("v 0.00000 0.00000 0.00000\n"));
         assert!(text.ends_with("f 1 2 3\n"));

@@ -24,9 +24,9 @@ pub struct Quality {
 impl Quality {
     /// Measures `mesh`.
     pub fn of(mesh: &Mesh) -> Self {
-        let lengths = sorted(mesh.edges().into_iter().map(|(a, b)| {
-            mesh.positions[a as usize].distance(mesh.positions[b as usize])
-        }));
+        let lengths = sorted(
+            mesh.edges().into_iter().map(|(a, b)| mesh.positions[a as usize].distance(mesh.positions[b as usize])),
+        );
         let ratios = sorted(mesh.triangles.iter().map(|&t| {
             let sides = side_lengths(mesh, t);
             sides[2] / sides[0]

@@ -8,6 +8,8 @@ use super::mesh::Mesh;
 
 /// How far a vertex goes towards the middle in one round.
 const EAGERNESS: f32 = 0.7;
+/// The cosine by which a triangle may turn in one round.
+const STEADINESS: f32 = 0.4;
 
 /// Relaxes `mesh` on the surface of `field` for `rounds` rounds.
 ///
@@ -17,12 +19,31 @@ pub fn relax(mesh: &mut Mesh, field: &impl Field, wished: &impl Fn(Vec3) -> f32,
     for _ in 0..rounds {
         let middles = middles_around(mesh, wished);
         let normals = mesh.normals();
-        for ((p, middle), normal) in mesh.positions.iter_mut().zip(middles).zip(normals) {
-            let offset = middle - *p;
+        let moved = |((&p, middle), normal): ((&Vec3, Vec3), Vec3)| {
+            let offset = middle - p;
             let along = offset - normal * offset.dot(normal);
-            *p = field.onto_surface(*p + along * EAGERNESS, wished(*p) * 0.5);
+            field.onto_surface(p + along * EAGERNESS, wished(p) * 0.5)
+        };
+        let moved: Vec<Vec3> = (mesh.positions.iter().zip(middles).zip(normals)).map(moved).collect();
+        move_unless_folding(mesh, moved);
+    }
+}
+
+/// Moves the vertices, except those of triangles that would turn over.
+fn move_unless_folding(mesh: &mut Mesh, mut moved: Vec<Vec3>) {
+    let facing = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).normalize_or_zero();
+    for _ in 0..3 {
+        for &t in &mesh.triangles {
+            let before = facing(mesh.corners(t));
+            let after = facing(t.map(|v| moved[v as usize]));
+            if before.dot(after) < STEADINESS {
+                for v in t {
+                    moved[v as usize] = mesh.positions[v as usize];
+                }
+            }
         }
     }
+    mesh.positions = moved;
 }
 
 /// The weighted middle of the triangles around every vertex.
@@ -37,8 +58,5 @@ fn middles_around(mesh: &Mesh, wished: &impl Fn(Vec3) -> f32) -> Vec<Vec3> {
             sums[v as usize].1 += weight;
         }
     }
-    sums.iter()
-        .zip(&mesh.positions)
-        .map(|(&(sum, weight), &p)| if weight > 0.0 { sum / weight } else { p })
-        .collect()
+    sums.iter().zip(&mesh.positions).map(|(&(sum, weight), &p)| if weight > 0.0 { sum / weight } else { p }).collect()
 }

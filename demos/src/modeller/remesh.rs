@@ -4,6 +4,7 @@
 use glam::Vec3;
 
 use super::field::Field;
+use super::mend::mend;
 use super::mesh::Mesh;
 use super::relax::relax;
 use super::surgery::Surgery;
@@ -15,12 +16,7 @@ const SHORT: f32 = 0.75;
 
 /// Remeshes until the count of triangles is within two percent of `count`. `fineness` is the
 /// wished edge length at a point, up to a factor common to all points.
-pub fn remesh_to_count(
-    mesh: Mesh,
-    field: &impl Field,
-    fineness: &impl Fn(Vec3) -> f32,
-    count: usize,
-) -> Mesh {
+pub fn remesh_to_count(mesh: Mesh, field: &impl Field, fineness: &impl Fn(Vec3) -> f32, count: usize) -> Mesh {
     let mut mesh = mesh;
     let mut factor = first_factor(&mesh, fineness, count);
     for attempt in 0..8 {
@@ -43,6 +39,7 @@ fn remesh(mesh: Mesh, field: &impl Field, wished: &impl Fn(Vec3) -> f32, rounds:
         mesh = collapse_short_edges(&mesh, wished);
         mesh = flip_towards_six(&mesh);
         relax(&mut mesh, field, wished, 2);
+        mesh = mend(mesh, field, wished);
     }
     mesh
 }
@@ -53,6 +50,7 @@ fn polish(mesh: Mesh, field: &impl Field, wished: &impl Fn(Vec3) -> f32) -> Mesh
     for _ in 0..5 {
         mesh = flip_towards_fat(&mesh);
         relax(&mut mesh, field, wished, 3);
+        mesh = mend(mesh, field, wished);
     }
     mesh
 }
@@ -106,7 +104,10 @@ fn collapse_short_edges(mesh: &Mesh, wished: &impl Fn(Vec3) -> f32) -> Mesh {
         let middle = (pa + pb) * 0.5;
         // An end may have moved by an earlier collapse.
         if pa.distance(pb) <= SHORT * wished(middle) {
-            surgery.collapse(a, b, middle, LONG * wished(middle));
+            let longest = LONG * wished(middle);
+            let _merged = surgery.collapse(a, b, middle, longest)
+                || surgery.collapse(a, b, pa, longest)
+                || surgery.collapse(a, b, pb, longest);
         }
     }
     surgery.finish()

@@ -31,11 +31,7 @@ fn rock_distance(p: Vec3) -> f32 {
         0.025,
     );
     let dented = carve(body, ellipsoid(p, Vec3::new(0.22, 0.60, 0.02), Vec3::splat(0.22)), 0.06);
-    let notched = carve(
-        dented,
-        ellipsoid(p, Vec3::new(-0.22, 0.30, 0.52), Vec3::new(0.16, 0.30, 0.22)),
-        0.06,
-    );
+    let notched = carve(dented, ellipsoid(p, Vec3::new(-0.22, 0.30, 0.52), Vec3::new(0.16, 0.30, 0.22)), 0.06);
     let grain = (p.x * 17.0 + p.y * 5.0).sin() * (p.y * 13.0 - p.z * 7.0).sin() * (p.z * 15.0).cos();
     intersect(notched + 0.012 * grain, -p.y, 0.05)
 }

@@ -33,7 +33,5 @@ fn offsets_to_neighbours(mesh: &Mesh, edges: &[(u32, u32)]) -> Vec<Vec3> {
         sums[b as usize].0 += pa - pb;
         sums[b as usize].1 += 1.0;
     }
-    sums.into_iter()
-        .map(|(sum, count)| sum / count.max(1.0))
-        .collect()
+    sums.into_iter().map(|(sum, count)| sum / count.max(1.0)).collect()
 }

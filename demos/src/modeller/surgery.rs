@@ -29,11 +29,7 @@ impl Surgery {
                 fans[v as usize].push(index as u32);
             }
         }
-        Self {
-            positions: mesh.positions.clone(),
-            triangles: mesh.triangles.iter().copied().map(Some).collect(),
-            fans,
-        }
+        Self { positions: mesh.positions.clone(), triangles: mesh.triangles.iter().copied().map(Some).collect(), fans }
     }
 
     /// Ends the work: what is left, with its vertices numbered anew.
@@ -47,10 +43,7 @@ impl Surgery {
             }
         }
         let triangles = self.triangles.into_iter().flatten();
-        Mesh {
-            positions,
-            triangles: triangles.map(|t| t.map(|v| new_index[v as usize])).collect(),
-        }
+        Mesh { positions, triangles: triangles.map(|t| t.map(|v| new_index[v as usize])).collect() }
     }
 
     /// Where a vertex is.
@@ -88,21 +81,23 @@ impl Surgery {
     /// Merges the ends of the edge at `place`, unless that would pinch or fold the mesh or make
     /// an edge longer than `longest`. Whether it did.
     pub fn collapse(&mut self, a: u32, b: u32, place: Vec3, longest: f32) -> bool {
+        let around = [self.neighbours(a), self.neighbours(b)].concat();
+        let too_long = |&v: &u32| v != a && v != b && self.position(v).distance(place) > longest;
+        let folds = self.folds(a, b, place) || self.folds(b, a, place);
+        !folds && !around.iter().any(too_long) && self.merge(a, b, place)
+    }
+
+    /// Merges the ends of the edge at `place`, unless that would pinch the mesh. Whether it did.
+    pub fn merge(&mut self, a: u32, b: u32, place: Vec3) -> bool {
         let Some(w) = self.wings(a, b) else {
             return false;
         };
-        let around_a = self.neighbours(a);
         let around_b = self.neighbours(b);
-        let shared = around_a.iter().filter(|v| around_b.contains(v)).count();
-        let merged_valence = self.valence(a) + self.valence(b) - 4;
+        let shared = (self.neighbours(a).iter()).filter(|v| around_b.contains(v)).count();
         if shared != 2
-            || merged_valence > 9
-            || self.valence(w.above) <= 4
-            || self.valence(w.below) <= 4
-            || (around_a.iter().chain(&around_b))
-                .any(|&v| v != a && v != b && self.position(v).distance(place) > longest)
-            || self.folds(a, b, place)
-            || self.folds(b, a, place)
+            || self.valence(a) + self.valence(b) > 13
+            || self.valence(w.above) <= 3
+            || self.valence(w.below) <= 3
         {
             return false;
         }
@@ -132,10 +127,7 @@ impl Surgery {
         let before = self.facing([a, b, w.above]) + self.facing([b, a, w.below]);
         let after = [[w.above, a, w.below], [w.below, b, w.above]];
         let upright = before.normalize_or_zero();
-        if after
-            .iter()
-            .any(|&t| self.facing(t).normalize_or_zero().dot(upright) < 0.5)
-        {
+        if after.iter().any(|&t| self.facing(t).normalize_or_zero().dot(upright) < 0.5) {
             return false;
         }
         self.remove(w.left);
@@ -149,9 +141,7 @@ impl Surgery {
     /// The vertices that share an edge with `v`.
     fn neighbours(&self, v: u32) -> Vec<u32> {
         let fan = self.fans[v as usize].iter();
-        fan.filter_map(|&t| self.triangles[t as usize])
-            .map(|t| follower(t, v))
-            .collect()
+        fan.filter_map(|&t| self.triangles[t as usize]).map(|t| follower(t, v)).collect()
     }
 
     /// The triangles at the edge from `a` to `b`.
@@ -168,12 +158,7 @@ impl Surgery {
             }
         }
         let ((left, above), (right, below)) = (left?, right?);
-        Some(Wings {
-            left,
-            right,
-            above,
-            below,
-        })
+        Some(Wings { left, right, above, below })
     }
 
     /// Whether a triangle at `v`, but not at `other`, would tilt too far if `v` moved to `place`.
@@ -184,10 +169,9 @@ impl Surgery {
                 return false;
             }
             let before = self.facing(triangle).normalize_or_zero();
-            let [p, q, r] =
-                triangle.map(|c| if c == v { place } else { self.position(c) });
+            let [p, q, r] = triangle.map(|c| if c == v { place } else { self.position(c) });
             let after = (q - p).cross(r - p).normalize_or_zero();
-            before.dot(after) < 0.6
+            before.dot(after) < 0.4
         })
     }
 

@@ -18,18 +18,11 @@ impl Tube {
         let mut spine = Vec::with_capacity(points.len() * PIECES);
         for segment in 0..points.len() - 1 {
             for piece in 0..PIECES {
-                spine.push(point_on_curve(
-                    points,
-                    segment,
-                    piece as f32 / PIECES as f32,
-                ));
+                spine.push(point_on_curve(points, segment, piece as f32 / PIECES as f32));
             }
         }
         spine.push(point_on_curve(points, points.len() - 2, 1.0));
-        Self {
-            spine,
-            flatness: 1.0,
-        }
+        Self { spine, flatness: 1.0 }
     }
 
     /// The same tube squeezed sideways: its extent in z times `flatness`.
@@ -44,10 +37,7 @@ impl Tube {
     /// Distance of `p` to the surface of the tube.
     pub fn distance(&self, p: Vec3) -> f32 {
         let p = Vec3::new(p.x, p.y, p.z / self.flatness);
-        self.spine
-            .windows(2)
-            .map(|pair| distance_to_piece(p, pair[0], pair[1]))
-            .fold(f32::INFINITY, f32::min)
+        self.spine.windows(2).map(|pair| distance_to_piece(p, pair[0], pair[1])).fold(f32::INFINITY, f32::min)
     }
 }
 
@@ -66,9 +56,7 @@ fn point_on_curve(points: &[[f32; 4]], segment: usize, t: f32) -> (Vec3, f32) {
     let after = points[(segment + 2).min(last)];
     let value = |i: usize| {
         let (a, b, c, d) = (before[i], from[i], to[i], after[i]);
-        b + 0.5
-            * t
-            * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
+        b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
     };
     (Vec3::new(value(0), value(1), value(2)), value(3))
 }
@@ -79,11 +67,7 @@ mod tests {
 
     #[test]
     fn a_tube_passes_through_its_points_with_their_radii() {
-        let tube = Tube::through(&[
-            [0.0, 0.0, 0.0, 0.2],
-            [1.0, 0.5, 0.0, 0.1],
-            [2.0, 0.0, 0.0, 0.1],
-        ]);
+        let tube = Tube::through(&[[0.0, 0.0, 0.0, 0.2], [1.0, 0.5, 0.0, 0.1], [2.0, 0.0, 0.0, 0.1]]);
         assert!((tube.distance(Vec3::new(0.0, 0.0, 0.0)) + 0.2).abs() < 0.02);
         assert!((tube.distance(Vec3::new(1.0, 0.5, 0.0)) + 0.1).abs() < 0.02);
         assert!(tube.distance(Vec3::new(1.0, 0.0, 0.0)) > 0.2);

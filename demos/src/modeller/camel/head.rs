@@ -7,82 +7,95 @@ use crate::modeller::blend::{carve, unite};
 use crate::modeller::shapes::{ellipsoid, pitched_ellipsoid, round_cone};
 
 /// The middle of the head.
-pub const CENTER: Vec3 = Vec3::new(1.48, 1.99, 0.0);
+pub const CENTER: Vec3 = Vec3::new(1.50, 1.99, 0.0);
 /// How smoothly the head flows into the neck.
 pub const REACH: f32 = 0.07;
 
+/// Where the head turns on the neck; it grows from here.
+const POLL: Vec3 = Vec3::new(1.30, 1.98, 0.0);
+/// How much larger the head is than it is modelled below.
+const GROWTH: f32 = 1.08;
+
 /// The distance to the head, for a point with z mirrored to be positive.
 pub fn distance(p: Vec3) -> f32 {
-    let bones = unite(unite(skull(p), muzzle(p), 0.07), jaw(p), 0.035);
-    let lipped = unite(unite(bones, upper_lip(p), 0.04), lower_lip(p), 0.03);
-    let browed = unite(unite(lipped, brow(p), 0.025), cheek(p), 0.05);
-    let socketed = carve(browed, eye_socket(p), 0.02);
-    let eyed = unite(socketed, eye(p), 0.006);
-    let nosed = carve(eyed, nostril(p), 0.012);
-    let mouthed = carve(nosed, mouth(p), 0.014);
-    unite(mouthed, ear(p), 0.025)
+    GROWTH * modelled_distance(POLL + (p - POLL) / GROWTH)
 }
 
-/// The brain case.
+/// The distance to the head at the size it is modelled.
+fn modelled_distance(p: Vec3) -> f32 {
+    let upper = unite(unite(skull(p), muzzle(p), 0.07), upper_lip(p), 0.04);
+    let lower = unite(jaw(p), lower_lip(p), 0.035);
+    // The jaw grows into the cheek behind, and is parted from the muzzle in front: the mouth.
+    let parted = ((p.x - 1.46) / 0.10).clamp(0.0, 1.0);
+    let bones = unite(upper, lower, 0.06 - 0.040 * parted);
+    let browed = unite(unite(bones, cheek(p), 0.05), brow(p), 0.03);
+    let socketed = carve(browed, eye_socket(p), 0.03);
+    let eyed = unite(socketed, eye(p), 0.008);
+    let nosed = carve(eyed, nostril(p), 0.015);
+    unite(nosed, ear(p), 0.02)
+}
+
+/// The brain case, domed.
 fn skull(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.355, 2.005, 0.0), Vec3::new(0.135, 0.098, 0.088), -0.15)
+    pitched_ellipsoid(p, Vec3::new(1.355, 2.005, 0.0), Vec3::new(0.130, 0.100, 0.088), -0.10)
 }
 
-/// The bridge of the nose, slightly arched.
+/// The bridge of the nose and the muzzle, narrowest in its middle.
 fn muzzle(p: Vec3) -> f32 {
-    let bridge = round_cone(p, Vec3::new(1.42, 2.0, 0.0), Vec3::new(1.655, 1.945, 0.0), 0.078, 0.054);
-    let arch = ellipsoid(p, Vec3::new(1.55, 2.0, 0.0), Vec3::new(0.10, 0.04, 0.04));
-    unite(bridge, arch, 0.05)
+    let bridge = round_cone(p, Vec3::new(1.42, 2.005, 0.0), Vec3::new(1.56, 1.975, 0.0), 0.078, 0.055);
+    let nose = round_cone(p, Vec3::new(1.56, 1.972, 0.0), Vec3::new(1.66, 1.955, 0.0), 0.053, 0.053);
+    unite(bridge, nose, 0.04)
 }
 
-/// The lower jaw.
+/// The lower jaw, deep behind and shallow in front.
 fn jaw(p: Vec3) -> f32 {
-    round_cone(p, Vec3::new(1.37, 1.935, 0.0), Vec3::new(1.63, 1.872, 0.0), 0.066, 0.037)
+    let behind = round_cone(p, Vec3::new(1.365, 1.940, 0.0), Vec3::new(1.50, 1.905, 0.0), 0.068, 0.046);
+    let front = round_cone(p, Vec3::new(1.50, 1.905, 0.0), Vec3::new(1.635, 1.882, 0.0), 0.044, 0.034);
+    unite(behind, front, 0.03)
 }
 
 /// The round of the cheek.
 fn cheek(p: Vec3) -> f32 {
-    ellipsoid(p, Vec3::new(1.40, 1.94, 0.045), Vec3::new(0.07, 0.055, 0.035))
+    ellipsoid(p, Vec3::new(1.40, 1.945, 0.045), Vec3::new(0.07, 0.055, 0.036))
 }
 
 /// The upper lip: two halves that hang over the lower one.
 fn upper_lip(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.69, 1.925, 0.022), Vec3::new(0.052, 0.055, 0.036), -0.5)
+    pitched_ellipsoid(p, Vec3::new(1.690, 1.930, 0.024), Vec3::new(0.042, 0.058, 0.036), 0.35)
 }
 
 /// The lower lip, drooping.
 fn lower_lip(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.67, 1.853, 0.0), Vec3::new(0.045, 0.030, 0.038), -0.35)
+    pitched_ellipsoid(p, Vec3::new(1.672, 1.858, 0.0), Vec3::new(0.046, 0.029, 0.040), -0.40)
 }
 
 /// The bony brow.
 fn brow(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.405, 2.062, 0.066), Vec3::new(0.058, 0.024, 0.030), -0.2)
+    pitched_ellipsoid(p, Vec3::new(1.410, 2.066, 0.064), Vec3::new(0.060, 0.024, 0.034), -0.15)
 }
 
 /// The hollow around the eye.
 fn eye_socket(p: Vec3) -> f32 {
-    ellipsoid(p, Vec3::new(1.425, 2.022, 0.104), Vec3::new(0.046, 0.030, 0.026))
+    ellipsoid(p, Vec3::new(1.435, 2.015, 0.112), Vec3::new(0.062, 0.042, 0.034))
 }
 
-/// The eye, half covered.
+/// The eye, prominent under its brow.
 fn eye(p: Vec3) -> f32 {
-    ellipsoid(p, Vec3::new(1.425, 2.020, 0.074), Vec3::new(0.027, 0.022, 0.020))
+    ellipsoid(p, Vec3::new(1.425, 2.024, 0.066), Vec3::new(0.034, 0.028, 0.028))
 }
 
-/// The slit of the nostril.
+/// The slit of the nostril, slanting.
 fn nostril(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.695, 1.962, 0.046), Vec3::new(0.030, 0.010, 0.020), 0.6)
+    pitched_ellipsoid(p, Vec3::new(1.690, 1.974, 0.050), Vec3::new(0.036, 0.013, 0.024), 0.6)
 }
 
-/// The line of the mouth, along the side of the muzzle.
-fn mouth(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.64, 1.888, 0.070), Vec3::new(0.12, 0.008, 0.040), -0.25)
-}
-
-/// A small ear, set far back.
+/// A small leaf of an ear, set far back and pointing outward.
 fn ear(p: Vec3) -> f32 {
-    let shell = round_cone(p, Vec3::new(1.285, 2.06, 0.062), Vec3::new(1.245, 2.135, 0.098), 0.026, 0.017);
-    let hollow = ellipsoid(p, Vec3::new(1.285, 2.115, 0.098), Vec3::new(0.014, 0.030, 0.014));
-    carve(shell, hollow, 0.01)
+    let root = Vec3::new(1.285, 2.050, 0.060);
+    let middle = Vec3::new(1.262, 2.092, 0.094);
+    let tip = Vec3::new(1.246, 2.128, 0.116);
+    let lower = round_cone(p, root, middle, 0.020, 0.026);
+    let leaf = unite(lower, round_cone(p, middle, tip, 0.026, 0.010), 0.01);
+    let hollow = ellipsoid(p, Vec3::new(1.290, 2.096, 0.104), Vec3::new(0.018, 0.030, 0.016));
+    carve(leaf, hollow, 0.012)
 }

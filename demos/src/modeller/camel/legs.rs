@@ -16,12 +16,7 @@ pub struct Leg {
 /// The four legs: front, then hind; of each pair first z > 0, then z < 0.
 pub fn all_four() -> [Leg; 4] {
     let leg = |hind, side, stride| Leg { hind, side, stride };
-    [
-        leg(false, 1.0, 0.05),
-        leg(false, -1.0, -0.05),
-        leg(true, 1.0, -0.06),
-        leg(true, -1.0, 0.06),
-    ]
+    [leg(false, 1.0, 0.13), leg(false, -1.0, -0.12), leg(true, 1.0, -0.11), leg(true, -1.0, 0.13)]
 }
 
 impl Leg {
@@ -31,11 +26,7 @@ impl Leg {
         if q.z < -0.15 {
             return body;
         }
-        if self.hind {
-            unite(body, hind_leg(q), 0.09)
-        } else {
-            unite(body, fore_leg(q), 0.08)
-        }
+        if self.hind { unite(body, hind_leg(q), 0.09) } else { unite(body, fore_leg(q), 0.08) }
     }
 
     /// The point on the leg as it is modelled: on the side z > 0 and without a stride.
@@ -79,10 +70,10 @@ fn hind_leg(p: Vec3) -> f32 {
 
 /// A foot below a fetlock at the origin's height above the ground.
 fn foot(p: Vec3) -> f32 {
-    let pastern = round_cone(p, Vec3::new(0.0, 0.15, 0.0), Vec3::new(0.035, 0.07, 0.0), 0.056, 0.062);
-    let pad = ellipsoid(p, Vec3::new(0.03, 0.035, 0.0), Vec3::new(0.110, 0.060, 0.090));
+    let pastern = round_cone(p, Vec3::new(0.0, 0.15, 0.0), Vec3::new(0.035, 0.07, 0.0), 0.056, 0.064);
+    let pad = ellipsoid(p, Vec3::new(0.025, 0.030, 0.0), Vec3::new(0.118, 0.056, 0.098));
     let apart = Vec3::new(p.x, p.y, p.z.abs());
-    let toe = ellipsoid(apart, Vec3::new(0.105, 0.030, 0.046), Vec3::new(0.072, 0.048, 0.043));
-    let whole = unite(unite(pastern, pad, 0.05), toe, 0.018);
+    let toe = ellipsoid(apart, Vec3::new(0.098, 0.026, 0.046), Vec3::new(0.072, 0.048, 0.046));
+    let whole = unite(unite(pastern, pad, 0.06), toe, 0.022);
     intersect(whole, -p.y, 0.02)
 }

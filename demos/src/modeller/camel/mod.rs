@@ -22,7 +22,7 @@ use legs::Leg;
 /// How many triangles the camel is wished to have.
 pub const TRIANGLES: usize = 19_500;
 /// The size of a cell of the first mesh, small enough for ears and tail.
-const CELL: f32 = 0.017;
+const CELL: f32 = 0.0145;
 
 /// The camel's mesh.
 pub fn camel() -> Mesh {
@@ -44,11 +44,7 @@ pub struct Camel {
 impl Camel {
     /// Puts the camel together.
     pub fn new() -> Self {
-        Self {
-            neck: neck::neck(),
-            tail: tail::tail(),
-            legs: legs::all_four(),
-        }
+        Self { neck: neck::neck(), tail: tail::tail(), legs: legs::all_four() }
     }
 }
 
@@ -76,7 +72,7 @@ fn fineness(p: Vec3) -> f32 {
         let t = ((p.distance(center) - inner) / (outer - inner)).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     };
-    let head = 0.62 + 0.38 * near(head::CENTER, 0.22, 0.65);
+    let head = 0.52 + 0.48 * near(head::CENTER, 0.22, 0.65);
     let tail = 0.72 + 0.28 * near(tail::CENTER, 0.30, 0.55);
     let feet = 0.80 + 0.20 * (p.y / 0.25).clamp(0.0, 1.0);
     head.min(tail).min(feet)
