@@ -5,11 +5,14 @@ use glam::Vec3;
 
 /// How many straight pieces stand for the curve between two given points.
 const PIECES: usize = 8;
+/// From this distance on, the ball around a tube stands for the tube.
+const FAR: f32 = 0.3;
 
 /// A tube along a curve, thick as its points say.
 pub struct Tube {
     spine: Vec<(Vec3, f32)>,
     flatness: f32,
+    ball: (Vec3, f32),
 }
 
 impl Tube {
@@ -22,7 +25,7 @@ impl Tube {
             }
         }
         spine.push(point_on_curve(points, points.len() - 2, 1.0));
-        Self { spine, flatness: 1.0 }
+        Self { ball: ball_around(&spine), spine, flatness: 1.0 }
     }
 
     /// The same tube squeezed sideways: its extent in z times `flatness`.
@@ -31,14 +34,28 @@ impl Tube {
         for (center, _) in &mut self.spine {
             center.z /= flatness;
         }
+        self.ball = ball_around(&self.spine);
         self
     }
 
-    /// Distance of `p` to the surface of the tube.
+    /// Distance of `p` to the surface of the tube; far away, a little less.
     pub fn distance(&self, p: Vec3) -> f32 {
         let p = Vec3::new(p.x, p.y, p.z / self.flatness);
+        let (center, radius) = self.ball;
+        let to_ball = p.distance(center) - radius;
+        if to_ball > FAR {
+            return to_ball;
+        }
         self.spine.windows(2).map(|pair| distance_to_piece(p, pair[0], pair[1])).fold(f32::INFINITY, f32::min)
     }
+}
+
+/// A ball that holds the whole spine with its radii.
+fn ball_around(spine: &[(Vec3, f32)]) -> (Vec3, f32) {
+    let sum: Vec3 = spine.iter().map(|&(center, _)| center).sum();
+    let middle = sum / spine.len() as f32;
+    let farthest = spine.iter().map(|&(center, r)| center.distance(middle) + r);
+    (middle, farthest.fold(0.0, f32::max))
 }
 
 /// Distance to the segment between two spine points, with the radius interpolated along it.

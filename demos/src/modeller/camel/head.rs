@@ -16,8 +16,17 @@ const POLL: Vec3 = Vec3::new(1.30, 1.98, 0.0);
 /// How much larger the head is than it is modelled below.
 const GROWTH: f32 = 1.08;
 
+/// A ball of this radius holds the head.
+const SIZE: f32 = 0.36;
+/// From this distance on, the ball stands for the head.
+const FAR: f32 = 0.2;
+
 /// The distance to the head, for a point with z mirrored to be positive.
 pub fn distance(p: Vec3) -> f32 {
+    let to_ball = p.distance(CENTER) - SIZE;
+    if to_ball > FAR {
+        return to_ball;
+    }
     GROWTH * modelled_distance(POLL + (p - POLL) / GROWTH)
 }
 
@@ -42,16 +51,16 @@ fn skull(p: Vec3) -> f32 {
 
 /// The bridge of the nose and the muzzle, narrowest in its middle.
 fn muzzle(p: Vec3) -> f32 {
-    let bridge = round_cone(p, Vec3::new(1.42, 2.005, 0.0), Vec3::new(1.56, 1.975, 0.0), 0.078, 0.055);
-    let nose = round_cone(p, Vec3::new(1.56, 1.972, 0.0), Vec3::new(1.66, 1.955, 0.0), 0.053, 0.053);
+    let bridge = round_cone(p, Vec3::new(1.42, 2.005, 0.0), Vec3::new(1.57, 1.978, 0.0), 0.078, 0.056);
+    let nose = round_cone(p, Vec3::new(1.57, 1.976, 0.0), Vec3::new(1.66, 1.957, 0.0), 0.055, 0.049);
     unite(bridge, nose, 0.04)
 }
 
 /// The lower jaw, deep behind and shallow in front.
 fn jaw(p: Vec3) -> f32 {
-    let behind = round_cone(p, Vec3::new(1.365, 1.940, 0.0), Vec3::new(1.50, 1.905, 0.0), 0.068, 0.046);
-    let front = round_cone(p, Vec3::new(1.50, 1.905, 0.0), Vec3::new(1.635, 1.882, 0.0), 0.044, 0.034);
-    unite(behind, front, 0.03)
+    let behind = round_cone(p, Vec3::new(1.365, 1.940, 0.0), Vec3::new(1.50, 1.908, 0.0), 0.068, 0.047);
+    let front = round_cone(p, Vec3::new(1.50, 1.908, 0.0), Vec3::new(1.635, 1.882, 0.0), 0.047, 0.034);
+    behind.min(front)
 }
 
 /// The round of the cheek.
@@ -61,7 +70,7 @@ fn cheek(p: Vec3) -> f32 {
 
 /// The upper lip: two halves that hang over the lower one.
 fn upper_lip(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.690, 1.930, 0.024), Vec3::new(0.042, 0.058, 0.036), 0.35)
+    pitched_ellipsoid(p, Vec3::new(1.690, 1.924, 0.022), Vec3::new(0.040, 0.056, 0.034), 0.40)
 }
 
 /// The lower lip, drooping.
@@ -76,26 +85,26 @@ fn brow(p: Vec3) -> f32 {
 
 /// The hollow around the eye.
 fn eye_socket(p: Vec3) -> f32 {
-    ellipsoid(p, Vec3::new(1.435, 2.015, 0.112), Vec3::new(0.062, 0.042, 0.034))
+    ellipsoid(p, Vec3::new(1.432, 2.016, 0.114), Vec3::new(0.060, 0.042, 0.036))
 }
 
 /// The eye, prominent under its brow.
 fn eye(p: Vec3) -> f32 {
-    ellipsoid(p, Vec3::new(1.425, 2.024, 0.066), Vec3::new(0.034, 0.028, 0.028))
+    ellipsoid(p, Vec3::new(1.427, 2.022, 0.066), Vec3::new(0.034, 0.029, 0.034))
 }
 
 /// The slit of the nostril, slanting.
 fn nostril(p: Vec3) -> f32 {
-    pitched_ellipsoid(p, Vec3::new(1.690, 1.974, 0.050), Vec3::new(0.036, 0.013, 0.024), 0.6)
+    pitched_ellipsoid(p, Vec3::new(1.688, 1.970, 0.054), Vec3::new(0.036, 0.014, 0.026), 0.6)
 }
 
 /// A small leaf of an ear, set far back and pointing outward.
 fn ear(p: Vec3) -> f32 {
     let root = Vec3::new(1.285, 2.050, 0.060);
-    let middle = Vec3::new(1.262, 2.092, 0.094);
-    let tip = Vec3::new(1.246, 2.128, 0.116);
+    let middle = Vec3::new(1.262, 2.086, 0.092);
+    let tip = Vec3::new(1.248, 2.114, 0.112);
     let lower = round_cone(p, root, middle, 0.020, 0.026);
-    let leaf = unite(lower, round_cone(p, middle, tip, 0.026, 0.010), 0.01);
-    let hollow = ellipsoid(p, Vec3::new(1.290, 2.096, 0.104), Vec3::new(0.018, 0.030, 0.016));
-    carve(leaf, hollow, 0.012)
+    let leaf = unite(lower, round_cone(p, middle, tip, 0.026, 0.013), 0.01);
+    let hollow = ellipsoid(p, Vec3::new(1.290, 2.090, 0.104), Vec3::new(0.018, 0.030, 0.016));
+    carve(leaf, hollow, 0.014)
 }

@@ -23,10 +23,11 @@ impl Leg {
     /// The distance to `body` with this leg grown onto it.
     pub fn grafted_onto(&self, body: f32, p: Vec3) -> f32 {
         let q = self.as_if_modelled(p);
-        if q.z < -0.15 {
+        // Nothing of the leg is near enough to flow into the body there.
+        if q.z < -0.15 || q.y > 1.8 || (q.x > 0.0) == self.hind {
             return body;
         }
-        if self.hind { unite(body, hind_leg(q), 0.09) } else { unite(body, fore_leg(q), 0.08) }
+        if self.hind { unite(body, hind_leg(q), 0.12) } else { unite(body, fore_leg(q), 0.08) }
     }
 
     /// The point on the leg as it is modelled: on the side z > 0 and without a stride.
@@ -44,7 +45,7 @@ fn fore_leg(p: Vec3) -> f32 {
     let fetlock = Vec3::new(0.375, 0.15, 0.200);
     let upper = round_cone(p, Vec3::new(0.38, 1.24, 0.155), elbow, 0.13, 0.088);
     let forearm = round_cone(p, elbow, knee, 0.090, 0.058);
-    let cap = ellipsoid(p, knee + Vec3::new(0.012, 0.0, 0.0), Vec3::new(0.072, 0.092, 0.066));
+    let cap = ellipsoid(p, knee + Vec3::new(0.012, 0.0, 0.0), Vec3::new(0.069, 0.105, 0.065));
     let cannon = round_cone(p, knee, fetlock, 0.052, 0.047);
     let arm = unite(shoulder, unite(upper, forearm, 0.05), 0.08);
     let shin = unite(unite(arm, cannon, 0.03), cap, 0.04);
@@ -60,7 +61,7 @@ fn hind_leg(p: Vec3) -> f32 {
     let thigh = pitched_ellipsoid(p, Vec3::new(-0.49, 1.22, 0.125), Vec3::new(0.185, 0.26, 0.095), 0.12);
     let femur = round_cone(p, hip, stifle, 0.13, 0.098);
     let gaskin = round_cone(p, stifle, hock, 0.100, 0.056);
-    let cap = ellipsoid(p, hock + Vec3::new(-0.008, 0.005, 0.0), Vec3::new(0.068, 0.085, 0.060));
+    let cap = ellipsoid(p, hock + Vec3::new(-0.008, 0.005, 0.0), Vec3::new(0.060, 0.090, 0.058));
     let point = ellipsoid(p, hock + Vec3::new(-0.045, 0.045, 0.0), Vec3::new(0.035, 0.055, 0.035));
     let cannon = round_cone(p, hock, fetlock, 0.053, 0.047);
     let ham = unite(thigh, unite(femur, gaskin, 0.06), 0.08);
@@ -75,5 +76,5 @@ fn foot(p: Vec3) -> f32 {
     let apart = Vec3::new(p.x, p.y, p.z.abs());
     let toe = ellipsoid(apart, Vec3::new(0.098, 0.026, 0.046), Vec3::new(0.072, 0.048, 0.046));
     let whole = unite(unite(pastern, pad, 0.06), toe, 0.022);
-    intersect(whole, -p.y, 0.02)
+    intersect(whole, -p.y, 0.03)
 }
