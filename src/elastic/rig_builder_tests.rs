@@ -39,7 +39,7 @@ fn indices_that_name_nothing_are_refused_with_their_place() {
     assert_eq!(fault.to_string(), "joint 0: `child` is segment 3, but there are 1");
     let mut rig = builder();
     let spring = SpringCoefficients::new(1.0, 0.1);
-    rig.mass_spring_set(MassSpringSetRig { segment: 9, anchor: Vec3::ZERO, radius: 1.0, spring });
+    rig.mass_spring_set(MassSpringSetRig { segment: 9, also: Vec::new(), anchor: Vec3::ZERO, radius: 1.0, spring });
     assert!(message(rig).contains("mass-spring set 0: `segment` is segment 9"));
 }
 

@@ -138,6 +138,9 @@ pub(super) fn check_sets(sets: &[MassSpringSetRig], count: usize) -> Check {
         if set.segment >= count {
             return Err(fault(table, "segment", Kind::SegmentIndex { index: set.segment, count }));
         }
+        if let Some(&index) = set.also.iter().find(|&&index| index >= count) {
+            return Err(fault(table, "also", Kind::SegmentIndex { index, count }));
+        }
         finite(table, "anchor", set.anchor)?;
         positive(table, "radius", set.radius)?;
         spring(table, set.spring)?;

@@ -84,7 +84,10 @@ fn build(text: &TomlText, raw: RawRig) -> Result<ElasticRig, RigFault> {
     for (i, s) in raw.mass_spring_set.iter().enumerate() {
         let segment = find(&rig, RigTable::MassSpringSet(i), "segment", &s.segment)?;
         let spring = set_spring(i, s)?;
-        rig.mass_spring_set(MassSpringSetRig { segment, anchor: Vec3::from(s.anchor), radius: s.radius, spring });
+        let also = s.also.iter().map(|name| find(&rig, RigTable::MassSpringSet(i), "also", name));
+        let also = also.collect::<Result<Vec<usize>, RigFault>>()?;
+        let anchor = Vec3::from(s.anchor);
+        rig.mass_spring_set(MassSpringSetRig { segment, also, anchor, radius: s.radius, spring });
     }
     rig.build()
 }

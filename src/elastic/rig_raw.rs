@@ -60,6 +60,8 @@ pub(super) struct RawJoint {
 #[serde(deny_unknown_fields)]
 pub(super) struct RawSet {
     pub segment: String,
+    #[serde(default)]
+    pub also: Vec<String>,
     pub anchor: [f32; 3],
     pub radius: f32,
     pub frequency: Option<f32>,
