@@ -1,0 +1,11 @@
+//! A scene at work: rapier moves it, pliant deforms it. Knows nothing of drawing.
+
+mod build;
+mod grab;
+mod obstacle;
+mod simulation;
+
+pub use build::BuildError;
+pub use grab::Hit;
+pub use obstacle::{ObstacleBody, ShownPart};
+pub use simulation::{Actor, Simulation};

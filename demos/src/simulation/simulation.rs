@@ -1,0 +1,98 @@
+//! The running scene: one verb, and what there is to see and to measure after it.
+
+use std::time::Instant;
+
+use pliant::math::Pose;
+use pliant::world::{BodyReport, DeformationWorld, ElasticBodyHandle, StageTimes};
+use rapier3d::pipeline::PhysicsWorld;
+
+use super::build::{BuildError, Built, build};
+use super::grab::Grab;
+use super::obstacle::ObstacleBody;
+use crate::scene::Scene;
+
+/// An elastic body of the scene.
+#[derive(Clone, Debug)]
+pub struct Actor {
+    /// Its name in the scene.
+    pub name: String,
+    /// The elastic body.
+    pub handle: ElasticBodyHandle,
+    /// Its colour, if the scene gives one.
+    pub colour: Option<[f32; 3]>,
+}
+
+/// A scene with its rapier world and its deformation world.
+pub struct Simulation {
+    /// What it was built from.
+    pub scene: Scene,
+    /// Rapier's world.
+    pub physics: PhysicsWorld,
+    /// Pliant's world.
+    pub deformation: DeformationWorld,
+    /// The elastic bodies.
+    pub actors: Vec<Actor>,
+    /// The obstacles.
+    pub obstacles: Vec<ObstacleBody>,
+    /// Steps taken.
+    pub frame: u64,
+    /// Milliseconds that rapier took for the last step.
+    pub rigid_ms: f32,
+    pub(super) grab: Option<Grab>,
+}
+
+impl Simulation {
+    /// Builds the scene. A `seed` other than 0 turns and shifts the bodies' starts at random.
+    ///
+    /// # Errors
+    /// [`BuildError`] where a rig or a mesh is wrong.
+    pub fn new(scene: Scene, seed: u64) -> Result<Self, BuildError> {
+        let Built { physics, deformation, actors, obstacles } = build(&scene, seed)?;
+        Ok(Self { scene, physics, deformation, actors, obstacles, frame: 0, rigid_ms: 0.0, grab: None })
+    }
+
+    /// Seconds simulated.
+    pub fn time(&self) -> f32 {
+        (self.frame as f64 * f64::from(self.scene.dt)) as f32
+    }
+
+    /// The number of steps in the scene's duration.
+    pub fn frames(&self) -> u64 {
+        (f64::from(self.scene.duration) / f64::from(self.scene.dt)).round().max(1.0) as u64
+    }
+
+    /// One step: obstacles move, the dragged body is pulled, rapier steps, pliant deforms.
+    pub fn step(&mut self) {
+        self.move_obstacles();
+        self.pull_grabbed();
+        let clock = Instant::now();
+        self.physics.step();
+        self.rigid_ms = clock.elapsed().as_secs_f32() * 1.0e3;
+        self.deformation.step(&mut self.physics);
+        self.frame += 1;
+    }
+
+    /// What the last step did to a body.
+    pub fn report(&self, actor: &Actor) -> BodyReport {
+        self.deformation.report().body(actor.handle).copied().unwrap_or_default()
+    }
+
+    /// Milliseconds that pliant's stages took in the last step.
+    pub fn times(&self) -> StageTimes {
+        self.deformation.report().times
+    }
+
+    /// Where each obstacle is.
+    pub fn obstacle_poses(&self) -> Vec<Pose> {
+        self.obstacles.iter().map(|o| o.pose(&self.physics)).collect()
+    }
+
+    fn move_obstacles(&mut self) {
+        let next = ((self.frame + 1) as f64 * f64::from(self.scene.dt)) as f32;
+        for obstacle in self.obstacles.iter().filter(|o| o.obstacle.is_moving()) {
+            if let Some(body) = self.physics.bodies.get_mut(obstacle.body) {
+                body.set_next_kinematic_position(obstacle.obstacle.pose_at(next));
+            }
+        }
+    }
+}
