@@ -72,6 +72,9 @@ fn too_many_segments_and_a_mesh_out_of_order_are_refused() {
     rig.mesh.normals.pop();
     assert!(message(rig).contains("`normals` has"));
     let mut rig = builder();
+    rig.mesh.welded[7] = 5000;
+    assert!(message(rig).contains("vertex 7 is welded to vertex 5000"));
+    let mut rig = builder();
     rig.mesh.positions[4] = Vec3::NAN;
     assert!(matches!(rig.build().unwrap_err().kind, RigFaultKind::Mesh(MeshError::NotFinite { vertex: 4, .. })));
     let mut rig = builder();

@@ -157,14 +157,19 @@ pub(super) fn check_mesh(mesh: &TriangleMesh) -> Check {
             return Err(at(Kind::MeshArray { array, given, expected }));
         }
     }
+    if !mesh.texture.is_empty() && mesh.texture.len() != expected {
+        return Err(at(Kind::MeshArray { array: "texture", given: mesh.texture.len(), expected }));
+    }
+    if let Some(vertex) = mesh.welded.iter().position(|&w| w as usize >= expected) {
+        let point = mesh.welded[vertex];
+        return Err(at(MeshError::WeldOutOfRange { vertex, point, vertices: expected }.into()));
+    }
     if let Some(vertex) = mesh.positions.iter().position(|p| !p.is_finite()) {
         let position = mesh.positions[vertex].to_array();
         return Err(at(MeshError::NotFinite { vertex, position }.into()));
     }
     for (triangle, t) in mesh.triangles.iter().enumerate() {
-        if let Some(&index) =
-            t.iter().find(|&&i| i as usize >= expected || mesh.welded[i as usize] as usize >= expected)
-        {
+        if let Some(&index) = t.iter().find(|&&i| i as usize >= expected) {
             return Err(at(MeshError::IndexOutOfRange { triangle, index, vertices: expected }.into()));
         }
     }

@@ -174,9 +174,15 @@ fn friendly(message: &str) -> String {
     }
 }
 
+/// Longer words are not compared: that takes time and space with the product of the lengths.
+const MAX_WORD: usize = 64;
+
 /// `, did you mean X?` for the candidate nearest to `word`, or a list of the candidates when none is near.
 pub fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
-    let candidates: Vec<&str> = candidates.into_iter().collect();
+    if word.chars().nth(MAX_WORD).is_some() {
+        return String::new();
+    }
+    let candidates: Vec<&str> = candidates.into_iter().filter(|c| c.chars().nth(MAX_WORD).is_none()).collect();
     let nearest =
         candidates.iter().map(|c| (strsim::damerau_levenshtein(&word.to_lowercase(), &c.to_lowercase()), *c)).min();
     match nearest {
@@ -219,5 +225,6 @@ mod tests {
         assert_eq!(did_you_mean("dencity", ["mass", "density"]), ", did you mean `density`?");
         assert_eq!(did_you_mean("zzz", ["mass", "density"]), "; there are: mass, density");
         assert_eq!(did_you_mean("zzz", []), "");
+        assert_eq!(did_you_mean(&"z".repeat(1 << 24), ["mass"]), "");
     }
 }

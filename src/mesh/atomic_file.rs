@@ -13,6 +13,8 @@ pub struct AtomicFile {
     writer: Option<BufWriter<File>>,
     beside: PathBuf,
     target: PathBuf,
+    /// A write has failed: the file is not whole and must not take its place.
+    failed: bool,
 }
 
 impl AtomicFile {
@@ -32,37 +34,41 @@ impl AtomicFile {
         name.push(".tmp");
         let beside = target.with_file_name(name);
         let writer = Some(BufWriter::with_capacity(1 << 16, File::create(&beside)?));
-        Ok(Self { writer, beside, target })
+        Ok(Self { writer, beside, target, failed: false })
     }
 
     /// Writes what is buffered and puts the file in its place.
     ///
     /// # Errors
-    /// The last bytes cannot be written or the file cannot be renamed; the target stays as it was.
+    /// The last bytes or any before them cannot be written, or the file cannot be renamed; the target stays as it was.
     pub fn finish(mut self) -> io::Result<()> {
-        self.inner()?.flush()?;
+        self.flush()?;
+        if self.failed {
+            return Err(io::Error::other("an earlier write to this file failed"));
+        }
         self.writer = None;
         fs::rename(&self.beside, &self.target).inspect_err(|_| drop(fs::remove_file(&self.beside)))
     }
 
-    fn inner(&mut self) -> io::Result<&mut BufWriter<File>> {
-        self.writer.as_mut().ok_or_else(|| io::Error::other("the file is finished"))
+    fn tried<T>(&mut self, act: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>) -> io::Result<T> {
+        let writer = self.writer.as_mut().ok_or_else(|| io::Error::other("the file is finished"))?;
+        act(writer).inspect_err(|e| self.failed |= e.kind() != io::ErrorKind::Interrupted)
     }
 }
 
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.inner()?.write(bytes)
+        self.tried(|w| w.write(bytes))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.inner()?.flush()
+        self.tried(|w| w.flush())
     }
 }
 
 impl Seek for AtomicFile {
     fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
-        self.inner()?.seek(position)
+        self.tried(|w| w.seek(position))
     }
 }
 
@@ -99,6 +105,18 @@ mod tests {
         let path = folder.path().join("a.txt");
         fs::write(&path, "old").unwrap();
         AtomicFile::create(&path).unwrap().write_all(b"half").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn after_a_failed_write_the_file_does_not_take_its_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "old").unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
+        assert!(file.seek(SeekFrom::Current(-1)).is_err());
+        assert!(file.finish().is_err());
         assert_eq!(fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }

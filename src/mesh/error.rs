@@ -39,6 +39,16 @@ pub enum MeshError {
         /// Number of vertices.
         vertices: usize,
     },
+    /// The `welded` map names a vertex that does not exist.
+    #[error("vertex {vertex} is welded to vertex {point}, but there are only {vertices}, counted from 0")]
+    WeldOutOfRange {
+        /// Index of the vertex, from 0.
+        vertex: usize,
+        /// What it is welded to.
+        point: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
     /// An array given beside the mesh has another length than the mesh has vertices.
     #[error("{given} positions were given for a mesh of {expected} vertices")]
     LengthMismatch {

@@ -22,10 +22,16 @@ pub fn vertex_centroid(positions: &[Vec3]) -> DVec3 {
     positions.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / positions.len() as f64
 }
 
+/// The corners of a triangle, none if an index is out of range.
+fn corners(positions: &[Vec3], triangle: &[u32; 3]) -> Option<[DVec3; 3]> {
+    let at = |k: usize| positions.get(triangle[k] as usize).map(|p| p.as_dvec3());
+    Some([at(0)?, at(1)?, at(2)?])
+}
+
 /// Signed volume in cubic metres that the triangles enclose. Meaningful for a closed surface only.
 ///
-/// Computed relative to the centroid of the vertices, so that a mesh far from the origin loses no digits. Indices must
-/// be in range.
+/// Computed relative to the centroid of the vertices, so that a mesh far from the origin loses no digits. A triangle that
+/// names a vertex which does not exist counts as nothing.
 pub fn signed_volume(positions: &[Vec3], triangles: &[[u32; 3]]) -> f64 {
     enclosed(positions, triangles).volume
 }
@@ -35,8 +41,8 @@ pub fn enclosed(positions: &[Vec3], triangles: &[[u32; 3]]) -> Enclosed {
     let origin = vertex_centroid(positions);
     let mut six_volumes = 0.0;
     let mut moment = DVec3::ZERO;
-    for t in triangles {
-        let [a, b, c] = t.map(|i| positions[i as usize].as_dvec3() - origin);
+    for [a, b, c] in triangles.iter().filter_map(|t| corners(positions, t)) {
+        let [a, b, c] = [a - origin, b - origin, c - origin];
         let six = a.dot(b.cross(c));
         six_volumes += six;
         moment += (a + b + c) * six;
@@ -45,18 +51,13 @@ pub fn enclosed(positions: &[Vec3], triangles: &[[u32; 3]]) -> Enclosed {
     Enclosed { volume: six_volumes / 6.0, centroid: if centroid.is_finite() { centroid } else { origin } }
 }
 
-/// Area of each triangle in square metres. Indices must be in range.
+/// Area of each triangle in square metres; 0 where an index is out of range.
 pub fn triangle_areas(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<f64> {
-    triangles
-        .iter()
-        .map(|t| {
-            let [a, b, c] = t.map(|i| positions[i as usize].as_dvec3());
-            0.5 * (b - a).cross(c - a).length()
-        })
-        .collect()
+    let area = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+    triangles.iter().map(|t| corners(positions, t).map_or(0.0, area)).collect()
 }
 
-/// Area of the whole surface in square metres. Indices must be in range.
+/// Area of the whole surface in square metres.
 pub fn surface_area(positions: &[Vec3], triangles: &[[u32; 3]]) -> f64 {
     triangle_areas(positions, triangles).iter().sum()
 }
@@ -157,6 +158,8 @@ pub(crate) mod tests {
         assert_eq!(size(&[]), 0.0);
         assert_eq!(signed_volume(&[], &[]), 0.0);
         assert_eq!(enclosed(&[Vec3::X], &[]).centroid, DVec3::X);
+        assert_eq!(signed_volume(&[Vec3::X], &[[0, 1, 2]]), 0.0);
+        assert_eq!(triangle_areas(&[Vec3::X], &[[0, 1, 2]]), [0.0]);
         let bounds = bounding_box(&[Vec3::X, -Vec3::Y]);
         assert_eq!((bounds.mins, bounds.maxs), (Vec3::new(0.0, -1.0, 0.0), Vec3::new(1.0, 0.0, 0.0)));
     }

@@ -27,12 +27,12 @@ impl NormalTopology {
     /// A triangle or a weld that names a vertex which does not exist.
     pub fn new(triangles: &[[u32; 3]], welded: &[u32]) -> Result<Self, MeshError> {
         let vertices = welded.len();
+        if let Some(vertex) = welded.iter().position(|&w| w as usize >= vertices) {
+            return Err(MeshError::WeldOutOfRange { vertex, point: welded[vertex], vertices });
+        }
         for (triangle, corners) in triangles.iter().enumerate() {
-            for &index in corners {
-                let point = welded.get(index as usize).copied().unwrap_or(index);
-                if index as usize >= vertices || point as usize >= vertices {
-                    return Err(MeshError::IndexOutOfRange { triangle, index, vertices });
-                }
+            if let Some(&index) = corners.iter().find(|&&i| i as usize >= vertices) {
+                return Err(MeshError::IndexOutOfRange { triangle, index, vertices });
             }
         }
         let points = |t: &[u32; 3]| t.map(|c| welded[c as usize] as usize);
@@ -157,5 +157,6 @@ mod tests {
         assert!(vertex_normals(&[Vec3::ZERO; 2], &[[0, 1, 2]], &[0, 1, 2]).is_err());
         assert!(vertex_normals(&[Vec3::ZERO; 3], &[[0, 1, 3]], &[0, 1, 2]).is_err());
         assert!(vertex_normals(&[Vec3::ZERO; 3], &[[0, 1, 2]], &[0, 1, 7]).is_err());
+        assert!(vertex_normals(&[Vec3::ZERO; 4], &[[0, 1, 2]], &[0, 1, 2, 4]).is_err());
     }
 }

@@ -8,13 +8,17 @@ use std::path::Path;
 /// Writes positions and triangles as an OBJ file: vertices in the order given, so that caches of positions fit.
 ///
 /// # Errors
-/// A triangle that names a vertex which does not exist (nothing is written), or a failed write (what was there stays).
+/// A triangle that names a vertex which does not exist, a coordinate that is not finite, or a failed write; what was
+/// there before stays.
 pub fn write_obj(path: impl AsRef<Path>, positions: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     let vertices = positions.len();
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&index) = corners.iter().find(|&&c| c as usize >= vertices) {
             return Err(MeshError::IndexOutOfRange { triangle, index, vertices });
         }
+    }
+    if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+        return Err(MeshError::NotFinite { vertex, position: positions[vertex].to_array() });
     }
     let path = path.as_ref();
     write(path, positions, triangles).map_err(|source| MeshError::Unwritable { path: path.into(), source })
@@ -56,6 +60,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.obj");
         assert!(write_obj(&path, &[Vec3::ZERO], &[[0, 0, 1]]).is_err());
+        assert!(write_obj(&path, &[Vec3::NAN], &[]).is_err());
         assert!(!path.exists());
         let error = write_obj(folder.path(), &[Vec3::ZERO], &[]).unwrap_err().to_string();
         assert!(error.contains("cannot be written"), "{error}");

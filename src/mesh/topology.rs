@@ -16,7 +16,8 @@ pub enum Orientation {
     Flat,
 }
 
-/// What a surface is, judged on its welded topology. Triangles whose corners weld together are left out.
+/// What a surface is, judged on its welded topology. Triangles whose corners weld together, or that name a vertex which
+/// does not exist, are left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Topology {
     /// Edges with one triangle only, in ascending order.
@@ -38,7 +39,8 @@ impl Topology {
         let mut pieces = Pieces::new(mesh.positions.len());
         let mut used = vec![false; mesh.positions.len()];
         for t in &mesh.triangles {
-            let [a, b, c] = t.map(|i| mesh.welded[i as usize]);
+            let point = |i: u32| mesh.welded.get(i as usize).copied().filter(|&p| (p as usize) < used.len());
+            let [Some(a), Some(b), Some(c)] = t.map(point) else { continue };
             if a == b || b == c || c == a {
                 continue;
             }
@@ -126,6 +128,15 @@ mod tests {
         assert!(!topology.is_closed());
         assert_eq!(topology.open.len(), 3);
         assert!(topology.open.iter().flatten().all(|v| gone.contains(v)));
+    }
+
+    #[test]
+    fn triangles_that_name_no_vertex_are_holes() {
+        let mut mesh = sphere(1.0, 12, 8);
+        mesh.triangles[0][0] = 10_000;
+        assert_eq!(Topology::of(&mesh).open.len(), 3);
+        mesh.welded.clear();
+        assert_eq!(Topology::of(&mesh).components, 0);
     }
 
     #[test]

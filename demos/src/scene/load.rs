@@ -5,6 +5,7 @@ use super::raw::{RawBody, RawObstacle, RawPath, RawScene, RawShape, RawSpin};
 use super::types::{Body, Camera, MAX_DT, MAX_DURATION, Obstacle, ObstaclePath, ObstacleShape, PathKind, Scene, Spin};
 use pliant::elastic::{TomlError, TomlText, did_you_mean};
 use pliant::math::Vec3;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// Reads a scene file. Rigs and meshes that it names, relative to its folder, must exist; they are not read.
@@ -21,8 +22,9 @@ pub fn load_scene(path: impl AsRef<Path>) -> Result<Scene, TomlError> {
     }
     let bodies: Vec<Body> =
         raw.body.iter().enumerate().map(|(i, b)| body(&at.item("body", i), b)).collect::<Result<_, _>>()?;
+    let mut names = HashMap::new();
     for (i, b) in bodies.iter().enumerate() {
-        if let Some(first) = bodies[..i].iter().position(|other| other.name == b.name) {
+        if let Some(first) = names.insert(b.name.as_str(), i) {
             let message = format!("`{}` is the name of body {first} too; names must differ", b.name);
             return Err(at.item("body", i).error("name", message));
         }
