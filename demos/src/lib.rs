@@ -1,1 +1,3 @@
 //! The demos of pliant: scenes, drawing, the window and the files that the program writes.
+
+pub mod render;
