@@ -75,7 +75,7 @@ pub struct Sun {
 
 impl Default for Sun {
     fn default() -> Self {
-        Self { direction: Vec3::new(-0.55, 1.0, 0.5), colour: Vec3::new(3.5, 3.25, 2.9), softness: 0.035 }
+        Self { direction: Vec3::new(-0.75, 1.0, 0.45), colour: Vec3::new(5.6, 5.2, 4.6), softness: 0.04 }
     }
 }
 
@@ -88,14 +88,17 @@ pub struct Sky {
     pub horizon: Vec3,
     /// From below.
     pub bounce: Vec3,
+    /// Share of this light that reaches surfaces; below one, the background is lighter than what it lights.
+    pub fill: f32,
 }
 
 impl Default for Sky {
     fn default() -> Self {
         Self {
-            zenith: Vec3::new(0.52, 0.62, 0.78),
-            horizon: Vec3::new(0.95, 0.96, 0.98),
-            bounce: Vec3::new(0.42, 0.39, 0.36),
+            zenith: Vec3::new(0.95, 1.15, 1.45),
+            horizon: Vec3::new(2.1, 2.12, 2.16),
+            bounce: Vec3::new(0.80, 0.74, 0.68),
+            fill: 0.36,
         }
     }
 }
@@ -113,7 +116,7 @@ pub struct Ground {
 
 impl Default for Ground {
     fn default() -> Self {
-        Self { height: 0.0, colour: Vec3::new(0.62, 0.62, 0.63), grid: 0.35 }
+        Self { height: 0.0, colour: Vec3::new(0.70, 0.70, 0.71), grid: 0.3 }
     }
 }
 

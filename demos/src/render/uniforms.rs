@@ -54,7 +54,7 @@ impl View {
             sun_colour: with(frame.sun.colour, 0.0),
             light_x: with(light.x, light.half_extent),
             light_y: with(light.y, light.range),
-            zenith: with(frame.sky.zenith, 0.0),
+            zenith: with(frame.sky.zenith, frame.sky.fill),
             horizon: with(frame.sky.horizon, 0.0),
             bounce: with(frame.sky.bounce, 0.0),
             ground: [ground.height, ground.grid, frame.fog[0], frame.fog[1].max(1e-3)],

@@ -38,7 +38,7 @@ fn gather(@builtin(position) at: vec4f) -> @location(0) vec4f {
     n = select(n, -n, dot(n, p) > 0.0);
 
     let radius = view.occlusion.x;
-    let reach = min(radius / p.z / view.up.w * 0.5 * view.size.w, 90.0);
+    let reach = min(radius / p.z / view.up.w * 0.5 * view.size.w, 120.0);
     let turn = f32((pixel.x & 3) * 4 + (pixel.y & 3)) / 16.0;
     let shuffled = fract(turn * 7.0 + f32(pixel.x & 3) * 0.25);
     var hidden = 0.0;
@@ -50,7 +50,7 @@ fn gather(@builtin(position) at: vec4f) -> @location(0) vec4f {
         let window = max(1.0 - d2 / (radius * radius), 0.0);
         hidden += window * window * max(dot(q, n) - 0.004 * p.z, 0.0) * inverseSqrt(d2 + 1e-4 * radius * radius);
     }
-    let open = saturate1(1.0 - view.occlusion.y * 2.2 * hidden / f32(SAMPLES));
+    let open = saturate1(1.0 - view.occlusion.y * 3.2 * hidden / f32(SAMPLES));
     return vec4f(open, min(p.z, 6e4), 0.0, 0.0);
 }
 

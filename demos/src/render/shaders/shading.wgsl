@@ -70,13 +70,15 @@ fn shade(s: Surface, pixel: vec2f, open: f32) -> Light {
     let albedo = s.colour * (1.0 - s.metallic);
 
     // Light under the skin goes past the terminator, red farthest.
-    let wrap = s.subsurface * vec3f(0.5, 0.22, 0.12);
+    let wrap = s.subsurface * vec3f(0.42, 0.22, 0.13);
     let direct = clamp((vec3f(nl) + wrap) / ((1.0 + wrap) * (1.0 + wrap)), vec3f(0.0), vec3f(1.0));
     var visible = 0.0;
     if nl > -0.5 * s.subsurface {
-        visible = sun_visibility(s.position, n, pixel, 1.0 + 3.0 * s.subsurface);
+        // Creases too fine for the shadow map are dark where light grazes them.
+        let crease = saturate1(abs(nl) + 2.0 * open * open - 0.9);
+        visible = sun_visibility(s.position, n, pixel, 1.0 + 3.0 * s.subsurface) * crease;
     }
-    let tinted = mix(vec3f(visible), sqrt(vec3f(visible)) * vec3f(1.0, 0.85, 0.75) + 0.0, 0.35 * s.subsurface);
+    let tinted = mix(vec3f(visible), sqrt(vec3f(visible)) * vec3f(1.0, 0.88, 0.8), 0.3 * s.subsurface);
     let sun = view.sun_colour.rgb;
 
     // Dark corners of bright things are lit by the things themselves.
@@ -85,7 +87,7 @@ fn shade(s: Surface, pixel: vec2f, open: f32) -> Light {
     let around = irradiance(n);
 
     var out: Light;
-    out.diffuse = albedo * (sun * direct * tinted / PI * 1.0 + around * ambient_open);
+    out.diffuse = albedo * (sun * direct * tinted / PI + around * ambient_open);
     let fuzz = s.sheen * pow(1.0 - nv, 3.0);
     out.diffuse += fuzz * mix(vec3f(0.5), s.colour, 0.6) * (around * open + sun * saturate1(nl * 0.5 + 0.5) * visible * 0.12);
 

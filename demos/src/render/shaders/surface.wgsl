@@ -34,5 +34,5 @@ fn translucent_fragment(in: Vertex, @builtin(front_facing) front: bool) -> @loca
     let light = shade(s, in.clip.xy, 1.0);
     let nv = saturate1(abs(dot(s.normal, normalize(view.eye.xyz - s.position))));
     let alpha = mix(instances[in.instance].colour.a, 1.0, 0.7 * pow(1.0 - nv, 4.0));
-    return vec4f(fogged(light.diffuse, in.position) * alpha + light.mirror * select(0.3, 1.0, front), alpha);
+    return vec4f(fogged(light.diffuse, in.position) * alpha + light.mirror * 0.6, alpha) * select(0.3, 1.0, front);
 }

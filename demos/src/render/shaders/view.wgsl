@@ -11,7 +11,7 @@ struct View {
     sun_colour: vec4f,
     light_x: vec4f,        // axes of the shadow map in the world, w: half extent in metres
     light_y: vec4f,        // w: depth range in metres
-    zenith: vec4f,
+    zenith: vec4f,         // w: share of the sky's light that reaches surfaces
     horizon: vec4f,
     bounce: vec4f,
     ground: vec4f,         // height, grid strength, fog start, fog length
