@@ -1,5 +1,8 @@
 //! The demos of pliant: scenes, drawing, the window and the files that the program writes.
 
-pub mod output;
-pub mod scene;
 pub mod modeller;
+pub mod output;
+pub mod render;
+pub mod scene;
+pub mod simulation;
+pub mod window;

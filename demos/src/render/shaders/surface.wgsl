@@ -1,0 +1,38 @@
+// Items, solid and translucent.
+
+struct Vertex {
+    @builtin(position) clip: vec4f,
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+    @location(2) @interpolate(flat) instance: u32,
+}
+
+@vertex
+fn surface_vertex(@builtin(instance_index) instance: u32, @location(0) p: vec4f, @location(1) n: vec4f) -> Vertex {
+    let world = world_position(instance, p);
+    return Vertex(view.view_proj * vec4f(world, 1.0), world, world_normal(instance, n), instance);
+}
+
+fn surface_of(in: Vertex, front: bool) -> Surface {
+    let item = instances[in.instance];
+    let n = normalize(in.normal);
+    return Surface(in.position, select(-n, n, front), item.colour.rgb, item.surface.x, item.surface.y,
+                   item.surface.z, item.surface.w, item.depth.x);
+}
+
+@fragment
+fn solid_fragment(in: Vertex) -> @location(0) vec4f {
+    let depth = dot(in.position - view.eye.xyz, view.forward.xyz);
+    let light = shade(surface_of(in, true), in.clip.xy, openness_at(in.clip.xy, depth));
+    return vec4f(fogged(light.diffuse + light.mirror, in.position), 1.0);
+}
+
+// Premultiplied: what the pane mirrors stays, what it scatters fades, and its rim hides more than its middle.
+@fragment
+fn translucent_fragment(in: Vertex, @builtin(front_facing) front: bool) -> @location(0) vec4f {
+    let s = surface_of(in, front);
+    let light = shade(s, in.clip.xy, 1.0);
+    let nv = saturate1(abs(dot(s.normal, normalize(view.eye.xyz - s.position))));
+    let alpha = mix(instances[in.instance].colour.a, 1.0, 0.7 * pow(1.0 - nv, 4.0));
+    return vec4f(fogged(light.diffuse, in.position) * alpha + light.mirror * 0.6, alpha) * select(0.3, 1.0, front);
+}
