@@ -10,6 +10,17 @@ use super::shapes::{ellipsoid, rounded_box};
 use super::smooth::smooth;
 use super::surface::mesh_of;
 
+/// The planes along which pieces have broken off: a direction outward and a distance.
+const CLEAVAGE: [[f32; 4]; 7] = [
+    [0.9, 0.7, 0.3, 0.47],
+    [-0.3, 1.0, 0.2, 0.66],
+    [0.3, 0.9, -0.7, 0.50],
+    [-0.9, 0.6, 0.4, 0.56],
+    [0.6, 0.1, -1.0, 0.42],
+    [0.5, 0.3, 1.0, 0.44],
+    [-0.5, 0.4, -1.0, 0.46],
+];
+
 /// The rock, lying on the ground y = 0.
 pub fn rock() -> Mesh {
     let low = Vec3::new(-0.8, -0.15, -0.7);
@@ -32,8 +43,11 @@ fn rock_distance(p: Vec3) -> f32 {
     );
     let dented = carve(body, ellipsoid(p, Vec3::new(0.22, 0.60, 0.02), Vec3::splat(0.22)), 0.06);
     let notched = carve(dented, ellipsoid(p, Vec3::new(-0.22, 0.30, 0.52), Vec3::new(0.16, 0.30, 0.22)), 0.06);
+    let split = CLEAVAGE
+        .iter()
+        .fold(notched, |rock, &[x, y, z, far]| intersect(rock, p.dot(Vec3::new(x, y, z).normalize()) - far, 0.04));
     let grain = (p.x * 17.0 + p.y * 5.0).sin() * (p.y * 13.0 - p.z * 7.0).sin() * (p.z * 15.0).cos();
-    intersect(notched + 0.012 * grain, -p.y, 0.05)
+    intersect(split + 0.012 * grain, -p.y, 0.05)
 }
 
 /// The point as seen by a slab that leans a little.
