@@ -56,24 +56,46 @@ fn main() -> Result<()> {
         ..Frame::default()
     };
     let turn = Mat4::from_rotation_y(2.6);
-    frame.items = vec![
-        Item::new(animal, at(-0.6, 0.0, 0.6) * turn, Material::skin()),
-        Item::new(animal, at(-0.4, 1.55, -1.6) * turn * Mat4::from_rotation_x(-0.5), Material::skin()),
-        Item::new(ball, at(1.1, 0.35, 1.4), Material::glossy(Vec3::new(0.55, 0.07, 0.05))),
-        Item::new(ball, at(2.1, 0.35, 0.9), Material::steel()),
-        Item::new(cylinder, at(-2.3, 0.3, 1.3), Material::slate()),
-        Item::new(bar, at(-0.4, 1.2, -1.2) * lying, Material::steel()),
-        Item::new(bar, at(-0.4, 1.2, -2.2) * lying, Material::steel()),
-        Item::new(wall, at(-0.4, 0.12, -2.6), Material::slate()),
-        Item::new(wall, at(-0.4, 0.12, -0.8), Material::slate()),
-        Item::new(pane, at(-0.4, 1.6, -0.6), Material::glass()),
-        Item::new(pane, at(-0.4, 1.6, -2.8), Material::slate()),
-        Item::new(
-            pane,
-            at(1.3, 1.6, -1.7) * Mat4::from_rotation_y(1.5708) * Mat4::from_scale(Vec3::new(0.7, 1.0, 1.0)),
-            Material::glass(),
-        ),
-    ];
+    if std::env::var_os("TOWER").is_some() {
+        frame.camera = Camera { fov: 0.6, ..Camera::looking(Vec3::new(9.0, 9.0, 15.0), Vec3::new(0.0, 4.2, 0.0)) };
+        frame.region = Region { centre: Vec3::new(0.0, 4.5, 0.0), radius: 8.0 };
+        let big = renderer.add_mesh(&shapes::cuboid(Vec3::new(1.8, 4.0, 0.08), 0.02));
+        for (i, y) in [1.2f32, 2.9, 4.6, 6.3].into_iter().enumerate() {
+            for k in 0..3 {
+                let x = k as f32 - 1.0 + 0.5 * (i % 2) as f32;
+                let r = Mat4::from_rotation_x(std::f32::consts::FRAC_PI_2);
+                frame.items.push(Item::new(bar, at(x, y, 0.0) * r, Material::steel()));
+            }
+            let t = Mat4::from_rotation_y(i as f32 * 1.3) * Mat4::from_rotation_x(i as f32 * 0.7);
+            frame.items.push(Item::new(animal, at(0.3 * (i as f32 - 1.5), y + 0.5, 0.2) * t, Material::skin()));
+        }
+        for k in 0..4 {
+            let r = Mat4::from_rotation_y(k as f32 * std::f32::consts::FRAC_PI_2);
+            let m = if k == 0 || k == 1 { Material::glass() } else { Material::slate() };
+            frame.items.push(Item::new(big, r * at(0.0, 4.0, 1.75), m));
+        }
+        frame.items.push(Item::new(ball, at(3.0, 0.35, 2.0), Material::glossy(Vec3::new(0.55, 0.07, 0.05))));
+        frame.items.push(Item::new(cylinder, at(-3.4, 0.3, 1.6), Material::slate()));
+    } else {
+        frame.items = vec![
+            Item::new(animal, at(-0.6, 0.0, 0.6) * turn, Material::skin()),
+            Item::new(animal, at(-0.4, 1.55, -1.6) * turn * Mat4::from_rotation_x(-0.5), Material::skin()),
+            Item::new(ball, at(1.1, 0.35, 1.4), Material::glossy(Vec3::new(0.55, 0.07, 0.05))),
+            Item::new(ball, at(2.1, 0.35, 0.9), Material::steel()),
+            Item::new(cylinder, at(-2.3, 0.3, 1.3), Material::slate()),
+            Item::new(bar, at(-0.4, 1.2, -1.2) * lying, Material::steel()),
+            Item::new(bar, at(-0.4, 1.2, -2.2) * lying, Material::steel()),
+            Item::new(wall, at(-0.4, 0.12, -2.6), Material::slate()),
+            Item::new(wall, at(-0.4, 0.12, -0.8), Material::slate()),
+            Item::new(pane, at(-0.4, 1.6, -0.6), Material::glass()),
+            Item::new(pane, at(-0.4, 1.6, -2.8), Material::slate()),
+            Item::new(
+                pane,
+                at(1.3, 1.6, -1.7) * Mat4::from_rotation_y(1.5708) * Mat4::from_scale(Vec3::new(0.7, 1.0, 1.0)),
+                Material::glass(),
+            ),
+        ];
+    }
     if std::env::var_os("OVERLAY").is_some() {
         frame.items[0].wire = Some([0.02, 0.02, 0.03, 0.6]);
         let o = &mut frame.overlay;

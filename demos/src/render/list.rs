@@ -6,6 +6,9 @@ use super::frame::{Frame, Item};
 use super::mesh::{MeshId, Meshes};
 use super::uniforms::Instance;
 
+/// Shadows of what is fainter than this would be more grain than shadow.
+const FAINTEST_CASTER: f32 = 0.2;
+
 /// Neighbouring instances of one mesh.
 pub struct Batch {
     mesh: MeshId,
@@ -79,7 +82,12 @@ impl DrawList {
     fn add(&mut self, item: &Item) -> Batch {
         let at = self.instances.len() as u32;
         self.instances.push(item.into());
-        Batch { mesh: item.mesh, instances: at..at + 1, casts_shadow: item.casts_shadow, wire: item.wire.is_some() }
+        Batch {
+            mesh: item.mesh,
+            instances: at..at + 1,
+            casts_shadow: item.casts_shadow && item.material.alpha > FAINTEST_CASTER,
+            wire: item.wire.is_some(),
+        }
     }
 
     /// What casts shadows.
