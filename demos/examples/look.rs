@@ -91,7 +91,9 @@ fn main() -> Result<()> {
             Item::new(pane, at(-0.4, 1.6, -2.8), Material::slate()),
             Item::new(
                 pane,
-                at(1.3, 1.6, -1.7) * Mat4::from_rotation_y(1.5708) * Mat4::from_scale(Vec3::new(0.7, 1.0, 1.0)),
+                at(1.3, 1.6, -1.7)
+                    * Mat4::from_rotation_y(std::f32::consts::FRAC_PI_2)
+                    * Mat4::from_scale(Vec3::new(0.7, 1.0, 1.0)),
                 Material::glass(),
             ),
         ];
@@ -103,7 +105,7 @@ fn main() -> Result<()> {
         o.cuboid(at(1.1, 0.35, 1.4), Vec3::splat(0.4), [0.9, 0.3, 0.05, 1.0]);
         o.capsule(Vec3::new(-2.3, 0.9, 1.3), Vec3::new(-2.3, 1.6, 1.3), 0.2, [0.0, 0.5, 0.2, 1.0]);
         for i in 0..12 {
-            let a = i as f32 * 0.5236;
+            let a = i as f32 * std::f32::consts::FRAC_PI_6;
             let p = Vec3::new(-0.6 + 0.7 * a.cos(), 1.0 + 0.5 * a.sin(), 0.6);
             o.spring(p, p + Vec3::new(0.1, 0.15, 0.1), 0.04, [0.9, 0.05, 0.3, 1.0]);
         }
@@ -115,6 +117,9 @@ fn main() -> Result<()> {
         image = picture.take(&mut renderer, &frame)?;
     }
     println!("{}: {:.1} ms a frame", gpu.name, start.elapsed().as_secs_f64() * 200.0);
+    if std::env::var_os("FINE").is_some() {
+        image = picture::still(&mut renderer, &frame, size, 2)?;
+    }
     image.save(&args[2])?;
     Ok(())
 }

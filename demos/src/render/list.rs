@@ -20,7 +20,7 @@ pub struct Batch {
 impl Batch {
     /// Draws with positions alone.
     pub fn draw_positions(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &Meshes) {
-        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let Some(mesh) = meshes.drawable(self.mesh) else { return };
         pass.set_vertex_buffer(0, mesh.positions.slice(..));
         pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..mesh.index_count, 0, self.instances.clone());
@@ -28,14 +28,14 @@ impl Batch {
 
     /// Draws with positions and normals.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &Meshes) {
-        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let Some(mesh) = meshes.drawable(self.mesh) else { return };
         pass.set_vertex_buffer(1, mesh.normals.slice(..));
         self.draw_positions(pass, meshes);
     }
 
     /// Draws triangles whose corners the shader pulls.
     pub fn draw_wire(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &Meshes) {
-        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let Some(mesh) = meshes.drawable(self.mesh) else { return };
         pass.set_bind_group(1, &mesh.wire, &[]);
         pass.draw(0..mesh.index_count, self.instances.clone());
     }

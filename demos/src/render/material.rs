@@ -58,7 +58,7 @@ impl Material {
 
     /// A pane through which the inside of a tower is seen.
     pub fn glass() -> Self {
-        Self { colour: Vec3::new(0.34, 0.44, 0.54), alpha: 0.10, roughness: 0.12, ..Self::default() }
+        Self { colour: Vec3::new(0.34, 0.44, 0.54), alpha: 0.07, roughness: 0.12, ..Self::default() }
     }
 
     /// Varnished, for balls and toys.

@@ -36,6 +36,6 @@ fn translucent_fragment(in: Vertex, @builtin(front_facing) front: bool) -> @loca
     let light = shade(s, in.clip.xy, 1.0, front && opacity > 0.3);
     let nv = saturate1(abs(dot(s.normal, normalize(view.eye.xyz - s.position))));
     let alpha = mix(opacity, 1.0, 0.7 * pow(1.0 - nv, 4.0));
-    let colour = fogged(light.diffuse, in.position) * alpha + light.mirror * 0.6;
+    let colour = fogged(light.diffuse, in.position) * alpha + light.mirror * 0.4;
     return vec4f(limited(colour), alpha) * select(0.3, 1.0, front);
 }
