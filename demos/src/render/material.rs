@@ -43,7 +43,7 @@ impl Material {
 
     /// Warm, sandy skin with a coat of short hair.
     pub fn skin() -> Self {
-        Self { colour: Vec3::new(0.50, 0.335, 0.20), roughness: 0.58, sheen: 0.35, subsurface: 0.6, ..Self::default() }
+        Self { colour: Vec3::new(0.52, 0.345, 0.20), roughness: 0.58, sheen: 0.35, subsurface: 0.6, ..Self::default() }
     }
 
     /// Cool, neutral stone for obstacles.
