@@ -75,7 +75,7 @@ pub struct Sun {
 
 impl Default for Sun {
     fn default() -> Self {
-        Self { direction: Vec3::new(-0.75, 1.0, 0.45), colour: Vec3::new(5.6, 5.2, 4.6), softness: 0.04 }
+        Self { direction: Vec3::new(-0.75, 1.0, 0.45), colour: Vec3::new(5.3, 4.95, 4.4), softness: 0.04 }
     }
 }
 
@@ -96,7 +96,7 @@ impl Default for Sky {
     fn default() -> Self {
         Self {
             zenith: Vec3::new(0.95, 1.15, 1.45),
-            horizon: Vec3::new(2.1, 2.12, 2.16),
+            horizon: Vec3::new(2.4, 2.42, 2.46),
             bounce: Vec3::new(0.80, 0.74, 0.68),
             fill: 0.36,
         }
@@ -146,7 +146,7 @@ pub struct Item {
     pub material: Material,
     /// Colour and opacity of its edges, drawn over it.
     pub wire: Option<[f32; 4]>,
-    /// Whether it darkens what is behind it in the sun.
+    /// Whether it darkens what is behind it in the sun; what is nearly clear never does.
     pub casts_shadow: bool,
 }
 

@@ -6,6 +6,9 @@ use super::frame::{Frame, Item};
 use super::mesh::{MeshId, Meshes};
 use super::uniforms::Instance;
 
+/// Shadows of what is fainter than this would be more grain than shadow.
+const FAINTEST_CASTER: f32 = 0.2;
+
 /// Neighbouring instances of one mesh.
 pub struct Batch {
     mesh: MeshId,
@@ -17,7 +20,7 @@ pub struct Batch {
 impl Batch {
     /// Draws with positions alone.
     pub fn draw_positions(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &Meshes) {
-        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let Some(mesh) = meshes.drawable(self.mesh) else { return };
         pass.set_vertex_buffer(0, mesh.positions.slice(..));
         pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(0..mesh.index_count, 0, self.instances.clone());
@@ -25,14 +28,14 @@ impl Batch {
 
     /// Draws with positions and normals.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &Meshes) {
-        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let Some(mesh) = meshes.drawable(self.mesh) else { return };
         pass.set_vertex_buffer(1, mesh.normals.slice(..));
         self.draw_positions(pass, meshes);
     }
 
     /// Draws triangles whose corners the shader pulls.
     pub fn draw_wire(&self, pass: &mut wgpu::RenderPass<'_>, meshes: &Meshes) {
-        let Some(mesh) = meshes.get(self.mesh) else { return };
+        let Some(mesh) = meshes.drawable(self.mesh) else { return };
         pass.set_bind_group(1, &mesh.wire, &[]);
         pass.draw(0..mesh.index_count, self.instances.clone());
     }
@@ -79,7 +82,12 @@ impl DrawList {
     fn add(&mut self, item: &Item) -> Batch {
         let at = self.instances.len() as u32;
         self.instances.push(item.into());
-        Batch { mesh: item.mesh, instances: at..at + 1, casts_shadow: item.casts_shadow, wire: item.wire.is_some() }
+        Batch {
+            mesh: item.mesh,
+            instances: at..at + 1,
+            casts_shadow: item.casts_shadow && item.material.alpha > FAINTEST_CASTER,
+            wire: item.wire.is_some(),
+        }
     }
 
     /// What casts shadows.

@@ -43,7 +43,7 @@ impl Material {
 
     /// Warm, sandy skin with a coat of short hair.
     pub fn skin() -> Self {
-        Self { colour: Vec3::new(0.50, 0.335, 0.20), roughness: 0.58, sheen: 0.35, subsurface: 0.6, ..Self::default() }
+        Self { colour: Vec3::new(0.52, 0.345, 0.20), roughness: 0.58, sheen: 0.35, subsurface: 0.6, ..Self::default() }
     }
 
     /// Cool, neutral stone for obstacles.
@@ -58,7 +58,7 @@ impl Material {
 
     /// A pane through which the inside of a tower is seen.
     pub fn glass() -> Self {
-        Self { colour: Vec3::new(0.34, 0.44, 0.54), alpha: 0.10, roughness: 0.12, ..Self::default() }
+        Self { colour: Vec3::new(0.34, 0.44, 0.54), alpha: 0.07, roughness: 0.12, ..Self::default() }
     }
 
     /// Varnished, for balls and toys.

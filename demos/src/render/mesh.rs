@@ -76,6 +76,11 @@ impl Meshes {
         self.all.get(id.0 as usize)?.as_ref()
     }
 
+    /// The mesh, if there is anything to draw.
+    pub fn drawable(&self, id: MeshId) -> Option<&Mesh> {
+        self.get(id).filter(|mesh| mesh.index_count > 0)
+    }
+
     pub fn remove(&mut self, id: MeshId) {
         if let Some(slot) = self.all.get_mut(id.0 as usize) {
             *slot = None;
@@ -90,6 +95,7 @@ impl Meshes {
     pub fn add(&mut self, device: &wgpu::Device, data: &MeshData) -> MeshId {
         let vertices = |label, values: &[Vec3], w: f32| {
             let padded: Vec<[f32; 4]> = values.iter().map(|v| v.extend(w).to_array()).collect();
+            let padded = if padded.is_empty() { vec![[0.0; 4]] } else { padded };
             device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some(label),
                 contents: bytemuck::cast_slice(&padded),
@@ -124,7 +130,9 @@ impl Meshes {
         indices: &[u32],
         centre: Vec3,
     ) -> MeshId {
+        // Devices know no empty buffers.
         let index_count = indices.len() as u32;
+        let indices = if indices.is_empty() { &[0; 3] } else { indices };
         let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("indices"),
             contents: bytemuck::cast_slice(indices),

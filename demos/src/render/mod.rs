@@ -1,9 +1,9 @@
 //! Drawing, on a screen or into a picture. Knows nothing of physics.
 //!
 //! The one who draws keeps meshes in a [`Renderer`] and hands it a [`Frame`] for each picture: a camera, a sun, and a
-//! list of items, each a mesh at a place in a material. The passes of a picture: the sun's depth map ([`shadow`]), a
-//! small depth image and the ambient occlusion from it ([`occlusion`]), everything visible ([`surface`], [`wire`],
-//! [`overlay`]) at four samples a pixel in linear light, and the fold of that light into screen colours ([`tone`]).
+//! list of items, each a mesh at a place in a material. The passes of a picture: the sun's depth map (`shadow`), a
+//! small depth image and the ambient occlusion from it (`occlusion`), everything visible (`surface`, `wire`,
+//! `overlay`) at four samples a pixel in linear light, and the fold of that light into screen colours (`tone`).
 
 pub mod device;
 pub mod frame;

@@ -75,3 +75,26 @@ impl Picture {
         self.read_pixels(renderer.device(), renderer.queue())
     }
 }
+
+/// A picture of a size in pixels whose every pixel is the mean of `fine` x `fine`: for stills that are looked at long.
+/// The renderer keeps its size.
+pub fn still(renderer: &mut Renderer, frame: &Frame, size: [u32; 2], fine: u32) -> Result<image::RgbaImage, GpuError> {
+    let fine = fine.max(1);
+    let before = renderer.size();
+    let large = size.map(|side| side * fine);
+    renderer.resize(large);
+    let taken = Picture::new(renderer.device(), large).take(renderer, frame);
+    renderer.resize(before);
+    let taken = taken?;
+    let count = fine * fine;
+    Ok(image::RgbaImage::from_fn(size[0], size[1], |x, y| {
+        let mut sum = [count / 2; 4];
+        for i in 0..count {
+            let pixel = taken.get_pixel(x * fine + i % fine, y * fine + i / fine);
+            for (sum, channel) in sum.iter_mut().zip(pixel.0) {
+                *sum += u32::from(channel);
+            }
+        }
+        image::Rgba(sum.map(|sum| (sum / count) as u8))
+    }))
+}

@@ -49,6 +49,8 @@ fn a_ball_over_the_ground() {
     let sky = image.get_pixel(4, 4);
     assert!(sky.0[..3].iter().all(|c| *c > 150), "the background is light: {sky:?}");
 
+    assert!(image.pixels().all(|p| p[3] == 255 && p.0[..3].iter().any(|c| *c > 8)), "no pixel is black");
+
     let towards = frame.sun.direction;
     let shadow = Vec3::Y - towards / towards.y;
     let (dark, light) = (brightness(&image, &frame, shadow), brightness(&image, &frame, shadow + Vec3::X * 2.0));
@@ -57,6 +59,11 @@ fn a_ball_over_the_ground() {
 
     let again = target.take(&mut renderer, &frame).unwrap();
     assert!(image == again, "equal frames give equal bytes");
+
+    let fine = picture::still(&mut renderer, &frame, SIZE, 2).unwrap();
+    let differences = image.as_raw().iter().zip(fine.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b)));
+    assert!(differences.sum::<u64>() < 2 * image.as_raw().len() as u64, "a finer picture shows the same");
+    assert_eq!(renderer.size(), SIZE);
 }
 
 #[test]

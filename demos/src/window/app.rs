@@ -70,8 +70,10 @@ impl App {
     fn load(&mut self, index: usize) {
         self.let_go();
         self.trouble = self.stage.load_scene(index).err();
-        self.orbit = Orbit::new(self.stage.camera());
-        self.clock.reset();
+        if self.trouble.is_none() {
+            self.orbit = Orbit::new(self.stage.camera());
+            self.clock.reset();
+        }
     }
 
     fn let_go(&mut self) {

@@ -29,7 +29,7 @@ fn ground_fragment(in: Ground) -> @location(0) vec4f {
     let depth = dot(in.position - view.eye.xyz, view.forward.xyz);
     let open = openness_at(in.clip.xy, depth);
     let s = Surface(in.position, vec3f(0.0, 1.0, 0.0), colour, 0.6, 0.0, 0.0, 0.0, 0.0);
-    let light = shade(s, in.clip.xy, open);
+    let light = shade(s, in.clip.xy, open, true);
     return vec4f(fogged(light.diffuse + 0.35 * light.mirror, in.position), 1.0);
 }
 

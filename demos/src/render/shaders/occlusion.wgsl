@@ -38,7 +38,7 @@ fn gather(@builtin(position) at: vec4f) -> @location(0) vec4f {
     n = select(n, -n, dot(n, p) > 0.0);
 
     let radius = view.occlusion.x;
-    let reach = min(radius / p.z / view.up.w * 0.5 * view.size.w, 120.0);
+    let reach = min(radius / p.z / view.up.w * 0.5 * view.size.w, 0.3 * view.size.w);
     let turn = f32((pixel.x & 3) * 4 + (pixel.y & 3)) / 16.0;
     let shuffled = fract(turn * 7.0 + f32(pixel.x & 3) * 0.25);
     var hidden = 0.0;

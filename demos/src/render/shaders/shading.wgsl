@@ -60,7 +60,20 @@ fn mirrored_share(f0: vec3f, roughness: f32, nv: f32) -> vec3f {
     return f0 * ab.x + ab.y;
 }
 
-fn shade(s: Surface, pixel: vec2f, open: f32) -> Light {
+// A curved surface smaller than a pixel shines like a rough one: roughness grows by how much the normal varies in it.
+fn roughened(roughness: f32, n: vec3f) -> f32 {
+    let x = dpdx(n);
+    let y = dpdy(n);
+    let spread = min(0.5 * (dot(x, x) + dot(y, y)), 0.18);
+    return sqrt(sqrt(pow(roughness, 4.0) + spread));
+}
+
+// Very bright samples would make edges jagged even at several samples a pixel.
+fn limited(light: vec3f) -> vec3f {
+    return min(light, vec3f(8.0));
+}
+
+fn shade(s: Surface, pixel: vec2f, open: f32, shadowed: bool) -> Light {
     let v = normalize(view.eye.xyz - s.position);
     let n = s.normal;
     let l = view.sun.xyz;
@@ -72,8 +85,8 @@ fn shade(s: Surface, pixel: vec2f, open: f32) -> Light {
     // Light under the skin goes past the terminator, red farthest.
     let wrap = s.subsurface * vec3f(0.42, 0.22, 0.13);
     let direct = clamp((vec3f(nl) + wrap) / ((1.0 + wrap) * (1.0 + wrap)), vec3f(0.0), vec3f(1.0));
-    var visible = 0.0;
-    if nl > -0.5 * s.subsurface {
+    var visible = f32(nl > 0.0);
+    if shadowed && nl > -0.5 * s.subsurface {
         // Creases too fine for the shadow map are dark where light grazes them.
         let crease = saturate1(abs(nl) + 2.0 * open * open - 0.9);
         visible = sun_visibility(s.position, n, pixel, 1.0 + 3.0 * s.subsurface) * crease;

@@ -21,13 +21,13 @@ fn agx(light: vec3f) -> vec3f {
     let x2 = x * x;
     let x4 = x2 * x2;
     let curve = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
-    let punch = pow(max(curve, vec3f(0.0)), vec3f(1.5));
+    let punch = pow(max(curve, vec3f(0.0)), vec3f(1.6));
     let grey = dot(punch, vec3f(0.2126, 0.7152, 0.0722));
-    return clamp(outset * (grey + 1.35 * (punch - grey)), vec3f(0.0), vec3f(1.0));
+    return clamp(outset * (grey + 1.4 * (punch - grey)), vec3f(0.0), vec3f(1.0));
 }
 
 fn display(at: vec4f) -> vec3f {
-    let light = textureLoad(scene, vec2i(at.xy), 0).rgb * view.occlusion.z * 1.35;
+    let light = textureLoad(scene, vec2i(at.xy), 0).rgb * view.occlusion.z * 1.45;
     return agx(light) + (gradient_noise(at.xy) - 0.5) / 255.0;
 }
 

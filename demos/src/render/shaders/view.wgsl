@@ -32,9 +32,3 @@ fn saturate1(x: f32) -> f32 {
 fn gradient_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(floor(pixel), vec2f(0.06711056, 0.00583715))));
 }
-
-// Point i of n on a disc of radius one, turned by `angle`: equal areas along a golden spiral.
-fn vogel(i: u32, n: f32, angle: f32) -> vec2f {
-    let a = f32(i) * 2.39996323 + angle;
-    return sqrt((f32(i) + 0.5) / n) * vec2f(cos(a), sin(a));
-}

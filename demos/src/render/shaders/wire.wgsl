@@ -21,8 +21,11 @@ fn wire_vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance:
 
 @fragment
 fn wire_fragment(in: Wire) -> @location(0) vec4f {
-    let pixels = in.corner / max(fwidth(in.corner), vec3f(1e-6));
+    let rate = max(fwidth(in.corner), vec3f(1e-6));
+    let pixels = in.corner / rate;
     let nearest = min(pixels.x, min(pixels.y, pixels.z));
-    let cover = in.colour.a * (1.0 - smoothstep(0.4, 1.2, nearest));
+    // Where triangles are only a few pixels high, their edges fade rather than paint everything over.
+    let height = 1.0 / max(rate.x, max(rate.y, rate.z));
+    let cover = in.colour.a * (1.0 - smoothstep(0.4, 1.2, nearest)) * clamp(height / 10.0, 0.15, 1.0);
     return vec4f(in.colour.rgb * cover, cover);
 }
