@@ -10,6 +10,8 @@
 
 pub mod elastic;
 pub mod field;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod math;
 pub mod mesh;
 pub mod spring;
