@@ -1,5 +1,7 @@
 //! The rest data of a skin on the device: uploaded once, shared by all bodies that wear it.
 
+use wgpu::util::DeviceExt;
+
 use super::error::GpuError;
 use crate::elastic::{ElasticRig, SkinWeights, tangent_epsilon};
 use crate::math::Vec3;
@@ -50,16 +52,11 @@ impl GpuSkin {
                 ]
             })
             .collect();
-        let rest = device.create_buffer(&wgpu::BufferDescriptor {
+        let rest = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("pliant rest vertices"),
-            size: u64::from(vertices) * REST_VERTEX,
+            contents: bytemuck::cast_slice(&rows),
             usage: wgpu::BufferUsages::STORAGE,
-            mapped_at_creation: true,
         });
-        if let Ok(mut range) = rest.get_mapped_range_mut(..) {
-            range.slice(..).copy_from_slice(bytemuck::cast_slice(&rows));
-        }
-        rest.unmap();
         Ok(Self {
             rest,
             vertices,
