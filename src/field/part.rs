@@ -81,7 +81,7 @@ impl ConvexHull {
         let (hull, indices) = parry3d::transformation::try_convex_hull(points).map_err(|_| error.clone())?;
         let triangles: Vec<[Vec3; 3]> =
             indices.iter().map(|t| t.map(|i| hull[i as usize])).filter(|t| plane(t).is_some()).collect();
-        if triangles.len() < 4 {
+        if triangles.len() < 4 || is_flat(&triangles) {
             return Err(error);
         }
         let planes = triangles.iter().filter_map(plane).collect();
@@ -97,6 +97,18 @@ impl ConvexHull {
     pub fn planes(&self) -> &[(Vec3, f32)] {
         &self.planes
     }
+}
+
+/// True where a closed surface holds no more than rounding: its volume is below a millionth of its area times its size.
+fn is_flat(triangles: &[[Vec3; 3]]) -> bool {
+    let origin = triangles[0][0];
+    let (mut volume, mut area, mut size) = (0.0_f32, 0.0_f32, 0.0_f32);
+    for [a, b, c] in triangles.iter().map(|t| t.map(|corner| corner - origin)) {
+        volume += a.dot(b.cross(c)) / 6.0;
+        area += 0.5 * (b - a).cross(c - a).length();
+        size = size.max(a.length());
+    }
+    volume <= 1.0e-6 * area * size
 }
 
 fn plane(&[a, b, c]: &[Vec3; 3]) -> Option<(Vec3, f32)> {
