@@ -105,7 +105,7 @@ fn a_palette_that_outgrows_its_buffer_still_agrees_and_says_how_large_it_is() {
         }
         let fields = palette.segments.iter().map(|s| s.local.fields.len() + s.global.fields.len()).sum::<usize>();
         let least = 16 * (2 + 4 * palette.segments.len() + 2 * fields) as u64;
-        assert!(body.palette_bytes() >= least && body.palette_bytes() % 16 == 0);
+        assert!(body.palette_bytes() >= least && body.palette_bytes().is_multiple_of(16));
     }
 }
 

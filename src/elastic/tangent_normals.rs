@@ -7,9 +7,10 @@ use crate::math::Vec3;
 
 /// Distance of the two tangent points from their vertex, as a fraction of the body's size.
 ///
-/// The difference of two deformed points loses about `2⁻²² · size / ε` of its direction to rounding, and bends with the
-/// deformation by about `ε · curvature`. Both are about a thousandth of a radian here: a hundredth part of a degree too
-/// few or too many is not seen, a coarser or finer step soon is.
+/// Rounding of the deformed points tilts the normal by about `2⁻²² · size / ε`, and the bend of the deformation between
+/// the points by about `ε · curvature`. The two balance near here: for a sphere in two spring fields the mean error was
+/// 2.1e-4, 1.3e-4, 1.2e-4 and 2.0e-4 at 1/512, 1/1024, 1/2048 and 1/4096; the larger of the two best leaves more room
+/// for bodies away from the origin, whose coordinates are coarser.
 pub const TANGENT_STEP: f32 = 1.0 / 1024.0;
 
 /// The step `ε` of [`Palette::deform_with_normal`] in metres for a body with these rest positions: [`TANGENT_STEP`]

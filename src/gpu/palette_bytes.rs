@@ -121,9 +121,11 @@ fn collision_rows<'a>(
                     (SHAPE_CONE, [half_height.to_bits(), radius.to_bits(), 0, 0], Row::default())
                 }
                 PartShape::HalfSpace { normal } => (SHAPE_HALF_SPACE, real(*normal, 0.0), Row::default()),
-                PartShape::Hull(hull) => {
-                    (SHAPE_HULL, [hulls.place(hull), count(hull.planes().len()), 0, 0], Row::default())
-                }
+                PartShape::Hull(hull) => (
+                    SHAPE_HULL,
+                    [hulls.place(hull), count(hull.planes().len()), hull.rounding_error().to_bits(), 0],
+                    Row::default(),
+                ),
             };
             let [rotation, translation] = pose_rows(field.part.pose, origin);
             [

@@ -9,6 +9,7 @@ mod certificate;
 mod difference;
 mod divergence;
 mod hugging;
+mod hull;
 mod kernel;
 mod lipschitz;
 mod paper;

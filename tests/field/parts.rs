@@ -3,7 +3,7 @@
 use fastrand::Rng;
 use parry3d::query::PointQuery;
 use parry3d::shape::{Ball, Capsule, Cone, ConvexPolyhedron, Cuboid, Cylinder, HalfSpace, Triangle};
-use pliant::field::{ConvexHull, ConvexPart, HullError, PartShape, PlacedPart};
+use pliant::field::{ConvexPart, PartShape, PlacedPart};
 use pliant::math::Vec3;
 
 use crate::random::{SHAPES, in_cube, part, pose, shape};
@@ -120,15 +120,4 @@ fn rounding_takes_its_radius_off_the_distance() {
             assert!((rounded - (distance - 0.2).max(0.0)).abs() < 1e-6);
         }
     }
-}
-
-#[test]
-fn points_in_a_plane_or_not_finite_have_no_hull() {
-    let flat: Vec<Vec3> = (0..8).map(|i| Vec3::new((i % 3) as f32, (i / 3) as f32, 0.5)).collect();
-    assert_eq!(ConvexHull::from_points(&flat), Err(HullError { points: 8 }));
-    assert!(ConvexHull::from_points(&[Vec3::ZERO; 20]).is_err());
-    let mut corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
-    assert!(ConvexHull::from_points(&corners).is_ok());
-    corners[3].z = f32::NAN;
-    assert!(ConvexHull::from_points(&corners).is_err());
 }

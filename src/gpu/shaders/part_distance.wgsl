@@ -30,7 +30,7 @@ fn part_distance(field: u32, x: vec3<f32>) -> Distance {
             let height = dot(one.xyz, x);
             d = Distance(max(height, 0.0), select(vec3<f32>(0.0), one.xyz, height > 0.0));
         }
-        case SHAPE_HULL: { d = away(outside_hull(x, palette[field + 5u].x, palette[field + 5u].y)); }
+        case SHAPE_HULL: { d = away(outside_hull(x, palette[field + 5u].x, palette[field + 5u].y, one.z)); }
         default: { d = away(x); }
     }
     if d.value > rounding {
@@ -82,13 +82,16 @@ fn outside_cone(x: vec3<f32>, half_height: f32, radius: f32) -> vec3<f32> {
 }
 
 // The nearest of all triangles that face x; `first` is where the hull's triangles begin, `count` how many there are.
-fn outside_hull(x: vec3<f32>, first: u32, count: u32) -> vec3<f32> {
+// What is not above any plane by more than rounding counts as inside.
+fn outside_hull(x: vec3<f32>, first: u32, count: u32, rounding_error: f32) -> vec3<f32> {
     var best = vec3<f32>(0.0);
     var best_squared = 3.4e38;
+    var highest = 0.0;
     for (var i = 0u; i < count; i++) {
         let at = first + i * TRIANGLE;
         let plane = reals(at);
         let height = dot(plane.xyz, x) - plane.w;
+        highest = max(highest, height);
         if height <= 0.0 || height * height >= best_squared {
             continue;
         }
@@ -99,7 +102,7 @@ fn outside_hull(x: vec3<f32>, first: u32, count: u32) -> vec3<f32> {
             best_squared = squared;
         }
     }
-    return best;
+    return select(vec3<f32>(0.0), best, highest > rounding_error);
 }
 
 // By the Voronoi regions of corners and edges (Ericson, Real-Time Collision Detection, section 5.1.5).
