@@ -17,17 +17,17 @@ use fastrand::Rng;
 use palettes::{Skin, random_palette, skin};
 use pliant::elastic::{Palette, SegmentEntry, SpringStage};
 use pliant::field::Integrator;
-use pliant::gpu::{DeformPipeline, GpuBody, GpuError, GpuSkin};
+use pliant::gpu::{GpuBody, GpuError, GpuSkin};
 use pliant::math::{Pose, Quat, Vec3};
 
 const INTEGRATORS: [Integrator; 3] = [Integrator::Euler, Integrator::Midpoint, Integrator::RungeKutta4];
 
 /// Largest differences of positions and normals between the device and the processor.
-fn differences(gpu: &Gpu, pipeline: &DeformPipeline, skin: &Skin, palette: &Palette) -> (f32, f32, u64) {
+fn differences(gpu: &Gpu, skin: &Skin, palette: &Palette) -> (f32, f32, u64) {
     let rest = GpuSkin::from_parts(&gpu.device, &skin.positions, &skin.normals, &skin.weights).expect("a skin");
     let mut body = GpuBody::new(&gpu.device, &rest);
     let mut encoder = gpu.encoder();
-    pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &rest, &mut body, palette).expect("a palette that fits");
+    gpu.pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &rest, &mut body, palette).expect("a palette that fits");
     gpu.queue.submit([encoder.finish()]);
     let positions = gpu.read(body.positions());
     let normals = gpu.read(body.normals());
@@ -48,7 +48,6 @@ fn differences(gpu: &Gpu, pipeline: &DeformPipeline, skin: &Skin, palette: &Pale
 #[test]
 fn the_device_deforms_random_palettes_as_the_processor_does() {
     let Some(gpu) = Gpu::open() else { return };
-    let pipeline = DeformPipeline::new(&gpu.device);
     let mut rng = Rng::with_seed(5);
     let skin = skin(3, 4);
     let (mut worst_position, mut worst_normal, mut bytes) = (0.0_f32, 0.0_f32, 0..0);
@@ -59,7 +58,7 @@ fn the_device_deforms_random_palettes_as_the_processor_does() {
             (palette.deform(x, weights) - without.deform(x, weights)).length() > 0.05
         });
         assert!(moved, "the collision passes of round {round} reach the body");
-        let (position, normal, size) = differences(&gpu, &pipeline, &skin, &palette);
+        let (position, normal, size) = differences(gpu, &skin, &palette);
         worst_position = worst_position.max(position);
         worst_normal = worst_normal.max(normal);
         bytes = if round == 0 { size..size } else { bytes.start.min(size)..bytes.end.max(size) };
@@ -73,12 +72,11 @@ fn the_device_deforms_random_palettes_as_the_processor_does() {
 #[test]
 fn every_kind_of_part_agrees_by_itself() {
     let Some(gpu) = Gpu::open() else { return };
-    let pipeline = DeformPipeline::new(&gpu.device);
     let mut rng = Rng::with_seed(6);
     let skin = skin(2, 1);
     for kind in 0..random::SHAPES {
         let palette = palettes::single_part(&mut rng, kind);
-        let (position, normal, _) = differences(&gpu, &pipeline, &skin, &palette);
+        let (position, normal, _) = differences(gpu, &skin, &palette);
         assert!(position < 1e-4, "kind {kind}: positions {position:e}");
         assert!(normal < 5e-3, "kind {kind}: normals {normal:e}");
     }
@@ -87,7 +85,6 @@ fn every_kind_of_part_agrees_by_itself() {
 #[test]
 fn a_palette_that_outgrows_its_buffer_still_agrees_and_says_how_large_it_is() {
     let Some(gpu) = Gpu::open() else { return };
-    let pipeline = DeformPipeline::new(&gpu.device);
     let skin = skin(2, 1);
     let rest = GpuSkin::from_parts(&gpu.device, &skin.positions, &skin.normals, &skin.weights).expect("a skin");
     let mut body = GpuBody::new(&gpu.device, &rest);
@@ -96,7 +93,7 @@ fn a_palette_that_outgrows_its_buffer_still_agrees_and_says_how_large_it_is() {
     let large = random_palette(&mut rng, 40, Integrator::Midpoint);
     for palette in [&small, &large, &small] {
         let mut encoder = gpu.encoder();
-        pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &rest, &mut body, palette).expect("it fits");
+        gpu.pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &rest, &mut body, palette).expect("it fits");
         gpu.queue.submit([encoder.finish()]);
         let positions = gpu.read(body.positions());
         for (i, &x) in skin.positions.iter().enumerate() {
@@ -112,20 +109,18 @@ fn a_palette_that_outgrows_its_buffer_still_agrees_and_says_how_large_it_is() {
 #[test]
 fn a_hull_that_many_fields_share_is_packed_once() {
     let Some(gpu) = Gpu::open() else { return };
-    let pipeline = DeformPipeline::new(&gpu.device);
     let skin = skin(1, 1);
     let mut palette = palettes::single_part(&mut Rng::with_seed(8), 6);
-    let (_, _, once) = differences(&gpu, &pipeline, &skin, &palette);
+    let (_, _, once) = differences(gpu, &skin, &palette);
     let field = palette.passes[0].fields[0].clone();
     palette.passes[0].fields.push(field);
-    let (_, _, twice) = differences(&gpu, &pipeline, &skin, &palette);
+    let (_, _, twice) = differences(gpu, &skin, &palette);
     assert_eq!(twice - once, 7 * 16, "one more collision field, no more triangles");
 }
 
 #[test]
 fn normals_stay_smooth_far_away_from_the_origin_of_the_world() {
     let Some(gpu) = Gpu::open() else { return };
-    let pipeline = DeformPipeline::new(&gpu.device);
     let skin = skin(3, 1);
     let motion = Pose::from_parts(Vec3::new(3000.0, -200.0, 1000.0), Quat::from_rotation_x(0.7));
     let stage = SpringStage { fields: Vec::new(), steps: 6 };
@@ -134,7 +129,7 @@ fn normals_stay_smooth_far_away_from_the_origin_of_the_world() {
     let rest = GpuSkin::from_parts(&gpu.device, &skin.positions, &skin.normals, &skin.weights).expect("a skin");
     let mut body = GpuBody::new(&gpu.device, &rest);
     let mut encoder = gpu.encoder();
-    pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &rest, &mut body, &palette).expect("it fits");
+    gpu.pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &rest, &mut body, &palette).expect("it fits");
     gpu.queue.submit([encoder.finish()]);
     for (normal, rest) in gpu.read(body.normals()).iter().zip(&skin.normals) {
         assert!((Vec3::from_slice(&normal[..3]) - motion.rotation * rest).length() < 1e-3);
@@ -144,16 +139,15 @@ fn normals_stay_smooth_far_away_from_the_origin_of_the_world() {
 #[test]
 fn what_does_not_belong_together_is_refused() {
     let Some(gpu) = Gpu::open() else { return };
-    let pipeline = DeformPipeline::new(&gpu.device);
     let [small, large] = [skin(1, 1), skin(2, 3)];
     let [first, second] = [&small, &large]
         .map(|s| GpuSkin::from_parts(&gpu.device, &s.positions, &s.normals, &s.weights).expect("a skin"));
     let palette = random_palette(&mut Rng::with_seed(9), 2, Integrator::Euler);
     let mut encoder = gpu.encoder();
     let mut body = GpuBody::new(&gpu.device, &first);
-    let refused = pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &second, &mut body, &palette);
+    let refused = gpu.pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &second, &mut body, &palette);
     assert_eq!(refused, Err(GpuError::OtherSkin { body: first.vertices(), skin: second.vertices() }));
     let mut body = GpuBody::new(&gpu.device, &second);
-    let refused = pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &second, &mut body, &palette);
+    let refused = gpu.pipeline.encode(&gpu.device, &gpu.queue, &mut encoder, &second, &mut body, &palette);
     assert_eq!(refused, Err(GpuError::MissingSegments { needed: 3, given: 2 }));
 }

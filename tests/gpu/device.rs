@@ -1,15 +1,21 @@
 //! A device of whatever kind there is, and the read-back that only tests need.
 
-/// A device and its queue.
+use std::sync::OnceLock;
+
+use pliant::gpu::DeformPipeline;
+
+/// A device, its queue and the pipeline, which a software driver takes seconds to compile.
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
+    pub pipeline: DeformPipeline,
 }
 
 impl Gpu {
     /// Any device, or none: then the test says so and passes, unless `PLIANT_REQUIRE_GPU` is 1.
-    pub fn open() -> Option<Self> {
-        match pollster::block_on(Self::request()) {
+    pub fn open() -> Option<&'static Self> {
+        static SHARED: OnceLock<Result<Gpu, String>> = OnceLock::new();
+        match SHARED.get_or_init(|| pollster::block_on(Self::request())) {
             Ok(gpu) => Some(gpu),
             Err(reason) => {
                 let required = std::env::var("PLIANT_REQUIRE_GPU").is_ok_and(|value| value == "1");
@@ -27,7 +33,8 @@ impl Gpu {
         let descriptor =
             wgpu::DeviceDescriptor { required_limits: wgpu::Limits::downlevel_defaults(), ..Default::default() };
         let (device, queue) = adapter.request_device(&descriptor).await.map_err(|e| format!("no device: {e}"))?;
-        Ok(Self { device, queue })
+        let pipeline = DeformPipeline::new(&device);
+        Ok(Self { device, queue, pipeline })
     }
 
     /// A new command encoder.
