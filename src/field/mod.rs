@@ -1,6 +1,6 @@
 //! Divergence-free vector fields and their path lines: pure functions, no state.
 //!
-//! Every field here is the curl of one potential (see [`curl`]); only the scalar weight differs.
+//! Every field here is the curl of one potential (see [`curl_of_weighted_rotation`]); only the scalar weight differs.
 
 mod certificate;
 mod convex_hull;
