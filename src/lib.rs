@@ -11,6 +11,8 @@
 pub mod coupling;
 pub mod elastic;
 pub mod field;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod math;
 pub mod mesh;
 pub mod spring;

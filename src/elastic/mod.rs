@@ -13,6 +13,7 @@ mod rig_raw;
 mod toml_text;
 mod weight_regions;
 mod weights;
+mod tangent_normals;
 
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
 pub use palette::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SpringStage};
@@ -26,3 +27,4 @@ pub use rig_fault::{RigFault, RigFaultKind, RigPlace, RigTable};
 pub use rig_file::{RigError, load_rig};
 pub use toml_text::{MAX_TOML_BYTES, TomlError, TomlKey, TomlText, did_you_mean};
 pub use weights::{MAX_SEGMENTS, WeightOptions, WeightsError, compute_weights};
+pub use tangent_normals::{TANGENT_STEP, tangent_epsilon};

@@ -1,8 +1,9 @@
 //! Divergence-free vector fields and their path lines: pure functions, no state.
 //!
-//! Every field here is the curl of one potential (see [`curl`]); only the scalar weight differs.
+//! Every field here is the curl of one potential (see [`curl_of_weighted_rotation`]); only the scalar weight differs.
 
 mod certificate;
+mod convex_hull;
 mod curl;
 mod hugging;
 mod kernel;
@@ -13,10 +14,11 @@ mod sphere;
 mod spring;
 
 pub use certificate::{Lipschitz, certified_steps};
+pub use convex_hull::{ConvexHull, HullError};
 pub use curl::curl_of_weighted_rotation;
 pub use hugging::HuggingField;
 pub use kernel::{CollisionKernel, SpringKernel};
-pub use part::{ConvexHull, ConvexPart, HullError, PartShape, PlacedPart};
+pub use part::{ConvexPart, PartShape, PlacedPart};
 pub use path_line::{Integrator, path_line};
 pub use sphere::SphereField;
 pub use spring::SpringField;

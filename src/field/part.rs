@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::convex_hull::ConvexHull;
 use crate::math::{Mat3, Pose, Vec3};
 
 /// A convex shape in its own frame. The axis of a cylinder and a cone is y, as in parry.
@@ -51,57 +52,6 @@ pub struct ConvexPart {
     pub shape: PartShape,
     /// Rounding radius in metres, not negative.
     pub rounding: f32,
-}
-
-/// A convex polyhedron by its triangles, with the plane of each.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ConvexHull {
-    triangles: Vec<[Vec3; 3]>,
-    planes: Vec<(Vec3, f32)>,
-}
-
-/// Why points have no convex hull.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{points} points span no volume: a convex part needs four points that do not lie in one plane")]
-pub struct HullError {
-    /// How many points there were.
-    pub points: usize,
-}
-
-impl ConvexHull {
-    /// The convex hull of `points`.
-    ///
-    /// # Errors
-    /// [`HullError`] where the points span no volume or are not finite.
-    pub fn from_points(points: &[Vec3]) -> Result<Self, HullError> {
-        let error = HullError { points: points.len() };
-        if points.len() < 4 || points.iter().any(|p| !p.is_finite()) {
-            return Err(error);
-        }
-        let (hull, indices) = parry3d::transformation::try_convex_hull(points).map_err(|_| error.clone())?;
-        let triangles: Vec<[Vec3; 3]> =
-            indices.iter().map(|t| t.map(|i| hull[i as usize])).filter(|t| plane(t).is_some()).collect();
-        if triangles.len() < 4 {
-            return Err(error);
-        }
-        let planes = triangles.iter().filter_map(plane).collect();
-        Ok(Self { triangles, planes })
-    }
-
-    /// Corners of each face triangle, counter-clockwise seen from outside.
-    pub fn triangles(&self) -> &[[Vec3; 3]] {
-        &self.triangles
-    }
-
-    /// Outward unit normal `n` and offset `o` of each triangle: inside is `n · x ≤ o`.
-    pub fn planes(&self) -> &[(Vec3, f32)] {
-        &self.planes
-    }
-}
-
-fn plane(&[a, b, c]: &[Vec3; 3]) -> Option<(Vec3, f32)> {
-    let normal = (b - a).cross(c - a).try_normalize()?;
-    Some((normal, normal.dot(a)))
 }
 
 /// A convex part in the world.

@@ -1,6 +1,7 @@
 //! Exact distances to convex parts. `part_distance.wgsl` is the twin of this file.
 
-use super::part::{ConvexHull, ConvexPart, PartShape};
+use super::convex_hull::ConvexHull;
+use super::part::{ConvexPart, PartShape};
 use crate::math::{Vec2, Vec3};
 
 impl ConvexPart {
@@ -73,12 +74,17 @@ fn outside_cone(x: Vec3, half_height: f32, radius: f32) -> Vec3 {
 }
 
 /// `x` minus its nearest point of the hull: the nearest of all triangles that face `x`, zero where none does.
+///
+/// A point on a face, or just beneath it, may by rounding seem to lie above another triangle of the same face, far from
+/// its border: what is not above any plane by more than rounding counts as inside.
 #[inline]
 fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
     let mut best = Vec3::ZERO;
     let mut best_squared = f32::INFINITY;
+    let mut highest = 0.0_f32;
     for (&(normal, offset), triangle) in hull.planes().iter().zip(hull.triangles()) {
         let height = normal.dot(x) - offset;
+        highest = highest.max(height);
         if height <= 0.0 || height * height >= best_squared {
             continue;
         }
@@ -89,7 +95,7 @@ fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
             best_squared = squared;
         }
     }
-    best
+    if highest > hull.rounding_error() { best } else { Vec3::ZERO }
 }
 
 /// The point of a triangle that is nearest to `x`, by the Voronoi regions of its corners and edges (Ericson, *Real-Time

@@ -90,7 +90,7 @@ impl Random {
 
     /// A pose turned at random about all axes and moved a little sideways.
     fn nudged(&mut self, pose: Pose, size: f32) -> Pose {
-        let turn = Vec3::new(self.next(), self.next(), self.next()) * [0.4, std::f32::consts::PI, 0.4].into();
+        let turn = Vec3::new(0.4 * self.next(), std::f32::consts::PI * self.next(), 0.4 * self.next());
         let shift = Vec3::new(self.next(), 0.0, self.next()) * (0.15 * size);
         let rotation = Quat::from_scaled_axis(turn) * pose.rotation;
         Pose::from_parts(pose.translation + shift, rotation)
