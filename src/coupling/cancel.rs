@@ -3,6 +3,9 @@
 //! One pass: gather the contacts of the deformed skin, choose their gauge points together, solve for their strengths so
 //! that each ends touching, then carry the whole skin along. Passes are concatenated until nothing is left.
 
+use std::collections::HashMap;
+
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rayon::prelude::*;
 
 use super::contact::{Proximity, penetration};
@@ -96,37 +99,70 @@ pub struct CancelReport {
 }
 
 /// The contacts of a skin with the parts near it, vertices deeper than `tolerance` only.
+///
+/// A vertex that several segments share belongs to the contact that leads it out of the part on the shortest way.
 pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
-    near.par_iter().filter_map(|near| find_contact(body, &parts[near.part], *near, tolerance)).collect()
+    let found: Vec<Vec<Penetration>> =
+        near.par_iter().map(|near| find_penetrations(body, &parts[near.part], near, tolerance)).collect();
+    let mut shortest: HashMap<(usize, u32), (f32, usize)> = HashMap::new();
+    for (contact, (near, vertices)) in near.iter().zip(&found).enumerate() {
+        for p in vertices {
+            let best = shortest.entry((near.part, p.vertex)).or_insert((p.depth, contact));
+            if p.depth < best.0 {
+                *best = (p.depth, contact);
+            }
+        }
+    }
+    let mut contacts = Vec::new();
+    for (contact, (near, mut vertices)) in near.iter().zip(found).enumerate() {
+        vertices.retain(|p| shortest[&(near.part, p.vertex)].1 == contact);
+        if !vertices.is_empty() {
+            contacts.push(Contact::new(body, *near, vertices));
+        }
+    }
+    contacts
 }
 
-fn find_contact(body: &ElasticBody, part: &ObstaclePart, near: Proximity, tolerance: f32) -> Option<Contact> {
-    let segment = usize::from(near.segment);
-    let skin = &body.skins()[segment];
-    let motion = body.motions()[segment];
+impl Contact {
+    fn new(body: &ElasticBody, near: Proximity, mut vertices: Vec<Penetration>) -> Self {
+        vertices.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.vertex.cmp(&b.vertex)));
+        let mut sum = Vec3::ZERO;
+        let mut weight = 0.0;
+        for p in &vertices {
+            sum += (body.positions()[p.vertex as usize] + near.normal * p.depth) * p.depth;
+            weight += p.depth;
+        }
+        Self { near, vertices, point: sum / weight }
+    }
+}
+
+/// A vertex counts for a segment's contacts from this weight on: with less, the segment's field hardly moves it.
+const CONTACT_WEIGHT: f32 = 0.25;
+
+fn find_penetrations(body: &ElasticBody, part: &ObstaclePart, near: &Proximity, tolerance: f32) -> Vec<Penetration> {
+    let skin = &body.skins()[usize::from(near.segment)];
+    let motion = body.motions()[usize::from(near.segment)];
     let reach = 2.0 * skin.size;
+    // Nothing outside the part's box and its shadow, on the far side from the segment, can have gone in.
+    let shadow =
+        part.aabb.merged(&Aabb::new(part.aabb.mins - near.normal * reach, part.aabb.maxs - near.normal * reach));
     let inward = motion.rotation.inverse() * near.normal;
     let mut vertices = Vec::new();
     for &vertex in &skin.vertices {
         let x = body.positions()[vertex as usize];
+        if !shadow.contains_local_point(x)
+            || body.rig().weights[vertex as usize].weight_of(near.segment) < CONTACT_WEIGHT
+        {
+            continue;
+        }
         let facing = body.rig().mesh.normals[vertex as usize].dot(inward);
-        if let Some(depth) = penetration(part, &near, x, facing, reach)
+        if let Some(depth) = penetration(part, near, x, facing, reach)
             && depth > tolerance
         {
             vertices.push(Penetration { vertex, depth });
         }
     }
-    if vertices.is_empty() {
-        return None;
-    }
-    vertices.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.vertex.cmp(&b.vertex)));
-    let mut sum = Vec3::ZERO;
-    let mut weight = 0.0;
-    for p in &vertices {
-        sum += (body.positions()[p.vertex as usize] + near.normal * p.depth) * p.depth;
-        weight += p.depth;
-    }
-    Some(Contact { near, vertices, point: sum / weight })
+    vertices
 }
 
 /// Cancels the penetration of `body` into `parts`: adds passes to its palette and carries its skin along.
@@ -197,11 +233,18 @@ fn solve_pass(
             })
             .collect();
         complementarity(&matrix, &wanted, &mut strength);
+        for (strength, contact) in strength.iter_mut().zip(contacts) {
+            *strength = strength.min(STRONGEST * contact.depth());
+        }
     }
     set_strengths(&mut pass, contacts, &strength, body, settings);
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     pass
 }
+
+/// A field is at most this many times as strong as its contact is deep: more would mean that it works against others,
+/// and the next pass, with new contacts, does better.
+const STRONGEST: f32 = 2.0;
 
 /// One hugging field a contact, of strength zero.
 fn place_fields(body: &ElasticBody, parts: &[ObstaclePart], contacts: &[Contact], softness: f32) -> Vec<SegmentField> {
@@ -245,9 +288,9 @@ fn set_strengths(
         bounds[usize::from(entry.segment)] += entry.field.lipschitz();
     }
     let bound = bounds.into_iter().fold(0.0, f32::max);
-    let least = body.settings.integrator.default_steps();
-    let needed = certified_steps(bound, least);
-    pass.steps = needed.min(settings.max_steps.max(least));
+    // Weak fields need few steps: `|d| / W` and with it the bound is small, and the error falls with its square.
+    let needed = certified_steps(bound * COLLISION_ACCURACY, LEAST_COLLISION_STEPS);
+    pass.steps = needed.min(settings.max_steps.max(LEAST_COLLISION_STEPS));
     if needed > pass.steps {
         let weaken = pass.steps as f32 / needed as f32;
         for entry in &mut pass.fields {
@@ -257,6 +300,10 @@ fn set_strengths(
         }
     }
 }
+
+/// Steps of a collision pass beyond the certificate, for accuracy.
+const COLLISION_ACCURACY: f32 = 1.5;
+const LEAST_COLLISION_STEPS: u32 = 2;
 
 /// The few vertices on which the strengths are solved: the deepest of each contact.
 struct Probes {

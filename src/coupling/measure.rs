@@ -1,5 +1,7 @@
 //! What a penetration looked like before the cancellation and what is left of it, by parry's exact queries.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::cancel::CancelReport;
@@ -14,7 +16,7 @@ pub struct PenetrationFigures {
     pub max_depth_before: f32,
     /// Largest exact depth of a vertex after it.
     pub max_depth_after: f32,
-    /// Largest distance left between the skin and a part that a segment had penetrated.
+    /// Largest distance left between the skin and a part that it had penetrated.
     pub max_gap: f32,
     /// Vertices deeper than [`INSIDE`] after it.
     pub vertices_inside: u32,
@@ -43,15 +45,25 @@ pub fn measure(
             (depth, u32::from(depth > INSIDE * size))
         })
         .reduce(|| (0.0, 0), |a, b| (a.0.max(b.0), a.1 + b.1));
-    let gap = |contact: &super::cancel::Contact| {
-        let part = &parts[contact.near.part];
-        let positions = contact.vertices.iter().map(|p| body.positions()[p.vertex as usize]);
-        positions.map(|x| part.shape.distance_to_point(&part.placed.pose, x, true)).fold(f32::INFINITY, f32::min)
-    };
+    let max_gap = gaps(body, parts, report).into_values().fold(0.0, f32::max);
     PenetrationFigures {
         max_depth_before: report.contacts.iter().map(|c| c.depth()).fold(0.0, f32::max) / size,
         max_depth_after: deepest / size,
-        max_gap: report.contacts.iter().map(gap).fold(0.0, f32::max) / size,
+        max_gap: max_gap / size,
         vertices_inside: inside,
     }
+}
+
+/// For each part that the skin had penetrated, how far the skin is from it now.
+fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BTreeMap<usize, f32> {
+    let mut gaps = BTreeMap::new();
+    for contact in &report.contacts {
+        let part = &parts[contact.near.part];
+        let gap = gaps.entry(contact.near.part).or_insert(f32::INFINITY);
+        for p in &contact.vertices {
+            let x = body.positions()[p.vertex as usize];
+            *gap = gap.min(part.shape.distance_to_point(&part.placed.pose, x, true));
+        }
+    }
+    gaps
 }

@@ -10,10 +10,10 @@ mod rig_checks;
 mod rig_fault;
 mod rig_file;
 mod rig_raw;
+mod tangent_normals;
 mod toml_text;
 mod weight_regions;
 mod weights;
-mod tangent_normals;
 
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
 pub use palette::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SpringStage};
@@ -25,6 +25,6 @@ pub use rig::{
 pub use rig_builder::{DEFAULT_LOCAL_THRESHOLD, DEFAULT_SOFTNESS, ElasticRigBuilder, rest_pose};
 pub use rig_fault::{RigFault, RigFaultKind, RigPlace, RigTable};
 pub use rig_file::{RigError, load_rig};
+pub use tangent_normals::{TANGENT_STEP, tangent_epsilon};
 pub use toml_text::{MAX_TOML_BYTES, TomlError, TomlKey, TomlText, did_you_mean};
 pub use weights::{MAX_SEGMENTS, WeightOptions, WeightsError, compute_weights};
-pub use tangent_normals::{TANGENT_STEP, tangent_epsilon};

@@ -70,8 +70,6 @@ pub(super) fn build(scene: &Scene, seed: u64) -> Result<Built, BuildError> {
         let handle = deformation.insert(rig, &start, &mut physics);
         actors.push(Actor { name: body.name.clone(), handle, colour: body.colour });
     }
-    // The broad phase has to know the obstacles before the first step asks it for them.
-    physics.detect_collisions(&(), &());
     Ok(Built { physics, deformation, actors, obstacles })
 }
 
