@@ -13,7 +13,7 @@ use super::gauge::gauge_point;
 use super::magnitude::complementarity;
 use super::obstacle::ObstaclePart;
 use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField};
-use crate::field::{HuggingField, Lipschitz, certified_steps};
+use crate::field::{HuggingField, Lipschitz, usual_steps};
 use crate::math::Vec3;
 
 /// Tolerances and limits of the cancellation; lengths as fractions of the body's size.
@@ -215,14 +215,12 @@ fn solve_pass(
     // Aim a little outside: what the solve leaves open then does not end inside.
     let aim = 0.5 * settings.depth_tolerance * size;
     let gap_tolerance = settings.gap_tolerance * size;
-    let probes = Probes::new(contacts);
+    let mut probes = Probes::new(contacts);
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
-        let moved = probes.flow(body, &pass);
-        let outcome: Vec<Outcome> =
-            contacts.iter().enumerate().map(|(j, c)| probes.outcome(j, c, &parts[c.near.part], &moved)).collect();
+        let outcome = probes.outcomes(body, &pass, contacts, parts);
         let open = outcome.iter().zip(&strength).any(|(o, &s)| o.gap < 0.0 || (o.gap > gap_tolerance && s > 0.0));
-        if !open {
+        if !open && !probes.extend(body, &pass, contacts, parts, settings.depth_tolerance * size) {
             break;
         }
         let matrix = influence(body, &pass, contacts, &outcome, &strength);
@@ -288,9 +286,8 @@ fn set_strengths(
         bounds[usize::from(entry.segment)] += entry.field.lipschitz();
     }
     let bound = bounds.into_iter().fold(0.0, f32::max);
-    // Weak fields need few steps: `|d| / W` and with it the bound is small, and the error falls with its square.
-    let needed = certified_steps(bound * COLLISION_ACCURACY, LEAST_COLLISION_STEPS);
-    pass.steps = needed.min(settings.max_steps.max(LEAST_COLLISION_STEPS));
+    let needed = usual_steps(bound, body.settings.integrator.default_steps());
+    pass.steps = needed.min(settings.max_steps).max(1);
     if needed > pass.steps {
         let weaken = pass.steps as f32 / needed as f32;
         for entry in &mut pass.fields {
@@ -301,18 +298,11 @@ fn set_strengths(
     }
 }
 
-/// Steps of a collision pass beyond the certificate, for accuracy.
-const COLLISION_ACCURACY: f32 = 1.5;
-const LEAST_COLLISION_STEPS: u32 = 2;
-
-/// The few vertices on which the strengths are solved: the deepest of each contact.
-struct Probes {
-    vertices: Vec<u32>,
-    /// For each contact the range of its probes.
-    ranges: Vec<std::ops::Range<usize>>,
-}
+/// The few vertices on which the strengths are solved: for each contact the deepest, and some of the others.
+struct Probes(Vec<Vec<u32>>);
 
 /// Where a contact ended: the signed gap (negative inside) and the vertex that decides it.
+#[derive(Clone, Copy)]
 struct Outcome {
     gap: f32,
     vertex: u32,
@@ -320,47 +310,75 @@ struct Outcome {
 
 impl Probes {
     fn new(contacts: &[Contact]) -> Self {
-        let mut vertices = Vec::new();
-        let mut ranges = Vec::with_capacity(contacts.len());
-        for contact in contacts {
-            let start = vertices.len();
-            // The deepest, and every few of the rest.
+        let choose = |contact: &Contact| {
             let stride = (contact.vertices.len() / PROBES_SPREAD).max(1);
             let rest = contact.vertices.iter().skip(PROBES_DEEPEST).step_by(stride);
-            vertices.extend(contact.vertices.iter().take(PROBES_DEEPEST).chain(rest).map(|p| p.vertex));
-            ranges.push(start..vertices.len());
-        }
-        Self { vertices, ranges }
+            contact.vertices.iter().take(PROBES_DEEPEST).chain(rest).map(|p| p.vertex).collect()
+        };
+        Self(contacts.iter().map(choose).collect())
     }
 
-    fn flow(&self, body: &ElasticBody, pass: &CollisionPass) -> Vec<Vec3> {
-        let integrator = body.settings.integrator;
-        self.vertices
-            .par_iter()
-            .with_min_len(16)
-            .map(|&v| pass.flow(body.positions()[v as usize], &body.rig().weights[v as usize], integrator))
-            .collect()
+    /// Where each contact ends under `pass`, judged by its probes.
+    fn outcomes(
+        &self,
+        body: &ElasticBody,
+        pass: &CollisionPass,
+        contacts: &[Contact],
+        parts: &[ObstaclePart],
+    ) -> Vec<Outcome> {
+        let judge = |(contact, probes): (&Contact, &Vec<u32>)| {
+            let outcomes = probes.iter().map(|&v| outcome(body, pass, contact, &parts[contact.near.part], v));
+            outcomes.fold(Outcome { gap: f32::INFINITY, vertex: 0 }, |a, b| if b.gap < a.gap { b } else { a })
+        };
+        contacts.par_iter().zip(&self.0).map(judge).collect()
     }
 
-    fn outcome(&self, j: usize, contact: &Contact, part: &ObstaclePart, moved: &[Vec3]) -> Outcome {
-        let mut worst = Outcome { gap: f32::INFINITY, vertex: 0 };
-        for i in self.ranges[j].clone() {
-            let x = moved[i];
-            let reach = 2.0 * contact.depth() + 1.0e-3;
-            let gap = match part.exit(x, contact.near.normal, reach) {
-                Some(depth) => -depth,
-                None => part.placed.distance(x).0,
-            };
-            if gap < worst.gap {
-                worst = Outcome { gap, vertex: self.vertices[i] };
+    /// Looks at all vertices of the contacts under `pass` and adds those that the probes left inside: true if any.
+    fn extend(
+        &mut self,
+        body: &ElasticBody,
+        pass: &CollisionPass,
+        contacts: &[Contact],
+        parts: &[ObstaclePart],
+        tolerance: f32,
+    ) -> bool {
+        let missed = |contact: &Contact| {
+            let part = &parts[contact.near.part];
+            let outcomes = contact.vertices.par_iter().with_min_len(32);
+            let mut inside: Vec<Outcome> = outcomes
+                .map(|p| outcome(body, pass, contact, part, p.vertex))
+                .filter(|outcome| outcome.gap < -tolerance)
+                .collect();
+            inside.sort_by(|a, b| a.gap.total_cmp(&b.gap).then(a.vertex.cmp(&b.vertex)));
+            inside.truncate(PROBES_SPREAD);
+            inside
+        };
+        let mut any = false;
+        for (contact, probes) in contacts.iter().zip(&mut self.0) {
+            for outcome in missed(contact) {
+                if !probes.contains(&outcome.vertex) {
+                    probes.push(outcome.vertex);
+                    any = true;
+                }
             }
         }
-        worst
+        any
     }
 }
 
-const PROBES_DEEPEST: usize = 16;
-const PROBES_SPREAD: usize = 16;
+/// Where one vertex of a contact ends under `pass`.
+fn outcome(body: &ElasticBody, pass: &CollisionPass, contact: &Contact, part: &ObstaclePart, vertex: u32) -> Outcome {
+    let start = body.positions()[vertex as usize];
+    let x = pass.flow(start, &body.rig().weights[vertex as usize], body.settings.integrator);
+    let gap = match part.exit(x, contact.near.normal, 2.0 * contact.depth()) {
+        Some(depth) => -depth,
+        None => part.placed.distance(x).0,
+    };
+    Outcome { gap, vertex }
+}
+
+const PROBES_DEEPEST: usize = 8;
+const PROBES_SPREAD: usize = 8;
 
 /// `A[i][j]`: how far field `j` of unit strength moves the deciding vertex of contact `i` along its direction, from the
 /// velocities halfway.

@@ -1,6 +1,8 @@
 //! The deformation of one vertex: equation (18), then the collision passes. `deform.wgsl` is the twin of this file.
 
-use super::palette::{CollisionPass, Palette, SpringStage};
+use smallvec::SmallVec;
+
+use super::palette::{CollisionField, CollisionPass, Palette, SegmentField, SpringStage};
 use super::rig::{MAX_INFLUENCES, SkinWeights};
 use crate::field::{Integrator, path_line};
 use crate::math::Vec3;
@@ -35,8 +37,11 @@ impl Palette {
     }
 }
 
+/// Fields that move one vertex, few enough to stay off the heap.
+type Active<'a, F> = SmallVec<[(f32, &'a F); 8]>;
+
 impl SpringStage {
-    /// Carries `x` through the stage. A point that no field can reach is returned as it is.
+    /// Carries `x` through the stage. A point that no field can reach is returned as it is: then it never moves.
     #[inline]
     pub fn flow(&self, x: Vec3, integrator: Integrator) -> Vec3 {
         if !self.fields.iter().any(|field| field.reaches(x)) {
@@ -51,18 +56,14 @@ impl CollisionPass {
     /// field's segment.
     #[inline]
     pub fn flow(&self, x: Vec3, skin: &SkinWeights, integrator: Integrator) -> Vec3 {
-        if !self.fields.iter().any(|entry| skin.weight_of(entry.segment) > 0.0) {
+        let weigh = |entry: &'_ SegmentField| skin.weight_of(entry.segment);
+        let weighted = self.fields.iter().map(|entry| (weigh(entry), &entry.field));
+        let active: Active<'_, CollisionField> = weighted.filter(|(weight, _)| *weight > 0.0).collect();
+        if !active.iter().any(|(_, field)| field.reaches(x)) {
             return x;
         }
         path_line(x, integrator, self.steps, |x, t| {
-            let mut sum = Vec3::ZERO;
-            for entry in &self.fields {
-                let weight = skin.weight_of(entry.segment);
-                if weight > 0.0 {
-                    sum += entry.field.velocity(x, t) * weight;
-                }
-            }
-            sum
+            active.iter().fold(Vec3::ZERO, |sum, (weight, field)| sum + field.velocity(x, t) * *weight)
         })
     }
 }

@@ -3,7 +3,7 @@
 //! This is everything that the deformation of a vertex depends on besides its rest data; a few kilobytes that the
 //! vector unit of a processor or a compute pass reads alike (section 5.4).
 
-use crate::field::{HuggingField, Integrator, Lipschitz, SphereField, SpringField, certified_steps};
+use crate::field::{HuggingField, Integrator, Lipschitz, SphereField, SpringField, usual_steps};
 use crate::math::{Pose, Vec3};
 
 /// A collision field: the part-hugging one, or the paper's with the bounding sphere.
@@ -22,6 +22,15 @@ impl CollisionField {
         match self {
             Self::Hugging(field) => field.velocity(x, t),
             Self::Sphere(field) => field.velocity(x, t),
+        }
+    }
+
+    /// True where the field may move the point `x`, should nothing else move it.
+    #[inline]
+    pub fn reaches(&self, x: Vec3) -> bool {
+        match self {
+            Self::Hugging(field) => field.reaches(x),
+            Self::Sphere(field) => field.reaches(x),
         }
     }
 
@@ -53,19 +62,19 @@ pub struct SpringStage {
 }
 
 impl SpringStage {
-    /// A stage of `fields`, with at least the integrator's default steps, more where the Lipschitz bound asks for
-    /// them, and at most `max_steps`: past that every `q` is pulled back towards its `p` until the bound is met.
+    /// A stage of `fields` with the integrator's default steps, fewer where the fields are weak, more where their
+    /// Lipschitz bound asks for them (see [`usual_steps`]), and at most `max_steps`: past that every `q` is pulled back
+    /// towards its `p` until the bound is met.
     pub fn certified(mut fields: Vec<SpringField>, integrator: Integrator, max_steps: u32) -> Self {
-        let least = integrator.default_steps().min(max_steps).max(1);
         let bound: f32 = fields.iter().map(Lipschitz::lipschitz).sum();
-        let needed = certified_steps(bound, least);
+        let needed = usual_steps(bound, integrator.default_steps());
         if needed > max_steps {
             let pull = max_steps as f32 / needed as f32;
             for field in &mut fields {
                 field.q = field.p + (field.q - field.p) * pull;
             }
         }
-        Self { fields, steps: needed.clamp(least, max_steps.max(1)) }
+        Self { fields, steps: needed.min(max_steps).max(1) }
     }
 
     /// The sum of the fields.

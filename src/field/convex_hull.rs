@@ -11,6 +11,7 @@ use crate::math::Vec3;
 pub struct ConvexHull {
     triangles: Vec<[Vec3; 3]>,
     planes: Vec<(Vec3, f32)>,
+    balls: Vec<(Vec3, f32)>,
     rounding_error: f32,
 }
 
@@ -46,7 +47,8 @@ impl ConvexHull {
             return Err(error);
         }
         let rounding_error = 1.0e-6 * corners.iter().map(|p| p.length()).fold(0.0, f32::max);
-        Ok(Self { triangles, planes, rounding_error })
+        let balls = triangles.iter().map(ball).collect();
+        Ok(Self { triangles, planes, balls, rounding_error })
     }
 
     /// Corners of each face triangle, counter-clockwise seen from outside.
@@ -57,6 +59,11 @@ impl ConvexHull {
     /// Outward unit normal `n` and offset `o` of each triangle: inside is `n · x ≤ o`. No corner of the hull lies outside.
     pub fn planes(&self) -> &[(Vec3, f32)] {
         &self.planes
+    }
+
+    /// Centre and radius of a ball around each triangle: what is farther from the ball is farther from the triangle.
+    pub fn balls(&self) -> &[(Vec3, f32)] {
+        &self.balls
     }
 
     /// A height over all planes below which a point counts as inside: what rounding makes of a height of zero.
@@ -72,6 +79,13 @@ fn plane(triangle: &[Vec3; 3], corners: &[Vec3]) -> Option<(Vec3, f32)> {
     let normal = (b - a).cross(c - a).try_normalize()?.as_vec3();
     let offset = corners.iter().map(|p| normal.as_dvec3().dot(p.as_dvec3())).fold(f64::NEG_INFINITY, f64::max);
     Some((normal, offset as f32))
+}
+
+/// A ball around a triangle, about its middle.
+fn ball(triangle: &[Vec3; 3]) -> (Vec3, f32) {
+    let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
+    let radius = triangle.iter().map(|p| p.distance(middle)).fold(0.0, f32::max);
+    (middle, radius * (1.0 + 4.0 * f32::EPSILON))
 }
 
 /// Affine coordinates by four of the points that span a tetrahedron as large as a greedy choice finds.

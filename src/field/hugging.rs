@@ -36,6 +36,12 @@ impl HuggingField {
         let (phi, dphi) = CollisionKernel::weight(distance, self.width);
         curl_of_weighted_rotation(phi, direction * dphi, self.d, x - self.gauge)
     }
+
+    /// True where the field may move the point `x`, should nothing else move it.
+    #[inline]
+    pub fn reaches(&self, x: Vec3) -> bool {
+        self.part.distance(x).0 < self.width + self.d.length()
+    }
 }
 
 impl Lipschitz for HuggingField {

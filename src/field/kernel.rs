@@ -7,15 +7,15 @@
 pub struct SpringKernel;
 
 impl SpringKernel {
-    /// `(φ, dφ/ds)` at the squared distance `s` for the squared radius of influence `R > 0`.
+    /// `(φ, dφ/ds)` at the squared distance `s`, for the inverse `1/R` of the squared radius of influence.
     #[inline]
-    pub fn weight(s: f32, radius_squared: f32) -> (f32, f32) {
-        let u = 1.0 - s / radius_squared;
+    pub fn weight(s: f32, inverse_radius_squared: f32) -> (f32, f32) {
+        let u = 1.0 - s * inverse_radius_squared;
         if u <= 0.0 {
             return (0.0, 0.0);
         }
         let u3 = u * u * u;
-        (0.5 * u3 * u, -2.0 * u3 / radius_squared)
+        (0.5 * u3 * u, -2.0 * u3 * inverse_radius_squared)
     }
 }
 

@@ -13,7 +13,7 @@ mod path_line;
 mod sphere;
 mod spring;
 
-pub use certificate::{Lipschitz, certified_steps};
+pub use certificate::{Lipschitz, certified_steps, usual_steps};
 pub use convex_hull::{ConvexHull, HullError};
 pub use curl::curl_of_weighted_rotation;
 pub use hugging::HuggingField;

@@ -77,25 +77,35 @@ fn outside_cone(x: Vec3, half_height: f32, radius: f32) -> Vec3 {
 ///
 /// A point on a face, or just beneath it, may by rounding seem to lie above another triangle of the same face, far from
 /// its border: what is not above any plane by more than rounding counts as inside.
+///
+/// The triangle with the highest plane is tried first; most of the others then lie too far by the balls around them.
 #[inline]
 fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
-    let mut best = Vec3::ZERO;
-    let mut best_squared = f32::INFINITY;
-    let mut highest = 0.0_f32;
-    for (&(normal, offset), triangle) in hull.planes().iter().zip(hull.triangles()) {
-        let height = normal.dot(x) - offset;
-        highest = highest.max(height);
-        if height <= 0.0 || height * height >= best_squared {
-            continue;
-        }
-        let away = x - closest_on_triangle(triangle, x);
-        let squared = away.length_squared();
-        if squared < best_squared {
-            best = away;
-            best_squared = squared;
+    let height = |&(normal, offset): &(Vec3, f32)| normal.dot(x) - offset;
+    let (mut first, mut highest) = (0, f32::NEG_INFINITY);
+    for (i, plane) in hull.planes().iter().enumerate() {
+        let height = height(plane);
+        if height > highest {
+            (first, highest) = (i, height);
         }
     }
-    if highest > hull.rounding_error() { best } else { Vec3::ZERO }
+    if highest <= hull.rounding_error() {
+        return Vec3::ZERO;
+    }
+    let mut best = x - closest_on_triangle(&hull.triangles()[first], x);
+    let mut distance = best.length();
+    for (i, &(centre, radius)) in hull.balls().iter().enumerate() {
+        let bound = distance + radius;
+        if i == first || x.distance_squared(centre) >= bound * bound || height(&hull.planes()[i]) <= 0.0 {
+            continue;
+        }
+        let away = x - closest_on_triangle(&hull.triangles()[i], x);
+        let length = away.length();
+        if length < distance {
+            (best, distance) = (away, length);
+        }
+    }
+    best
 }
 
 /// The point of a triangle that is nearest to `x`, by the Voronoi regions of its corners and edges (Ericson, *Real-Time

@@ -28,6 +28,12 @@ impl SphereField {
         let grad = if distance > 0.0 { b * (dphi / distance) } else { Vec3::ZERO };
         curl_of_weighted_rotation(phi, grad, self.d, b)
     }
+
+    /// True where the field may move the point `x`, should nothing else move it.
+    #[inline]
+    pub fn reaches(&self, x: Vec3) -> bool {
+        x.distance(self.centre) < self.outer + self.d.length()
+    }
 }
 
 impl Lipschitz for SphereField {

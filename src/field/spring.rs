@@ -23,7 +23,7 @@ impl SpringField {
     pub fn velocity(&self, x: Vec3, t: f32) -> Vec3 {
         let a = self.q - self.p;
         let b = x - (self.p + a * t);
-        let (phi, dphi) = SpringKernel::weight(b.length_squared(), self.radius * self.radius);
+        let (phi, dphi) = SpringKernel::weight(b.length_squared(), 1.0 / (self.radius * self.radius));
         curl_of_weighted_rotation(phi, b * (2.0 * dphi), a, b)
     }
 

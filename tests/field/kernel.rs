@@ -39,10 +39,10 @@ fn the_collision_constants_are_the_largest_values_rounded_up() {
 fn the_spring_weight_and_its_slope_are_the_formulas() {
     for i in 0..=1000 {
         let s = f64::from(i) / 1000.0 * 9.0;
-        let (phi, slope) = SpringKernel::weight(s as f32, 9.0);
+        let (phi, slope) = SpringKernel::weight(s as f32, 1.0 / 9.0);
         let u = 1.0 - s / 9.0;
         assert!((f64::from(phi) - 0.5 * u.powi(4)).abs() < 1e-6, "{s}");
         assert!((f64::from(slope) + 2.0 / 9.0 * u.powi(3)).abs() < 1e-6, "{s}");
     }
-    assert_eq!(SpringKernel::weight(9.1, 9.0), (0.0, 0.0));
+    assert_eq!(SpringKernel::weight(9.1, 1.0 / 9.0), (0.0, 0.0));
 }
