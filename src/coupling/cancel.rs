@@ -136,9 +136,6 @@ impl Contact {
     }
 }
 
-/// A vertex counts for a segment's contacts from this weight on: with less, the segment's field hardly moves it.
-const CONTACT_WEIGHT: f32 = 0.25;
-
 fn find_penetrations(body: &ElasticBody, part: &ObstaclePart, near: &Proximity, tolerance: f32) -> Vec<Penetration> {
     let skin = &body.skins()[usize::from(near.segment)];
     let motion = body.motions()[usize::from(near.segment)];
@@ -150,9 +147,7 @@ fn find_penetrations(body: &ElasticBody, part: &ObstaclePart, near: &Proximity, 
     let mut vertices = Vec::new();
     for &vertex in &skin.vertices {
         let x = body.positions()[vertex as usize];
-        if !shadow.contains_local_point(x)
-            || body.rig().weights[vertex as usize].weight_of(near.segment) < CONTACT_WEIGHT
-        {
+        if !shadow.contains_local_point(x) {
             continue;
         }
         let facing = body.rig().mesh.normals[vertex as usize].dot(inward);

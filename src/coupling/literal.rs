@@ -13,7 +13,7 @@ pub fn place(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], sof
         let part = &parts[near.part];
         let segment = usize::from(near.segment);
         let skin = &body.skins()[segment];
-        let sphere = part.shape.compute_bounding_sphere(&part.placed.pose);
+        let sphere = part.shape.compute_bounding_sphere(part.placed.pose());
         let body_centre = body.motions()[segment].transform_point(skin.centroid);
         let Some(out) = (body_centre - sphere.center).try_normalize() else { continue };
         let reach = 2.0 * skin.size;

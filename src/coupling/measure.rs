@@ -62,7 +62,7 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BT
         let gap = gaps.entry(contact.near.part).or_insert(f32::INFINITY);
         for p in &contact.vertices {
             let x = body.positions()[p.vertex as usize];
-            *gap = gap.min(part.shape.distance_to_point(&part.placed.pose, x, true));
+            *gap = gap.min(part.shape.distance_to_point(part.placed.pose(), x, true));
         }
     }
     gaps

@@ -115,7 +115,7 @@ impl ObstaclePart {
             return None;
         }
         let ray = Ray::new(end, -direction);
-        let hit = self.shape.cast_ray(&self.placed.pose, &ray, reach, true)?;
+        let hit = self.shape.cast_ray(self.placed.pose(), &ray, reach, true)?;
         Some(reach - hit)
     }
 
@@ -129,7 +129,7 @@ impl ObstaclePart {
         if !self.aabb.contains_local_point(x) {
             return 0.0;
         }
-        let projection = self.shape.project_point(&self.placed.pose, x, false);
+        let projection = self.shape.project_point(self.placed.pose(), x, false);
         if projection.is_inside { projection.point.distance(x) } else { 0.0 }
     }
 }

@@ -6,8 +6,9 @@ use rayon::prelude::*;
 
 use super::palette::{Palette, SegmentEntry, SpringStage};
 use super::rest::SegmentSkin;
-use super::rig::ElasticRig;
-use crate::field::{Integrator, SpringField};
+use super::rig::{ElasticRig, MAX_INFLUENCES};
+use super::skin_order::SkinOrder;
+use crate::field::{Integrator, LANES, SpringField};
 use crate::math::{Pose, Vec3};
 use crate::spring::MassSpringSet;
 
@@ -66,6 +67,9 @@ pub struct ElasticBody {
     sets: Vec<MassSpringSet>,
     palette: Palette,
     positions: Vec<Vec3>,
+    order: Arc<SkinOrder>,
+    /// Scratch for the results of batches.
+    moved: Vec<[Vec3; LANES]>,
     /// How the body is deformed.
     pub settings: DeformSettings,
 }
@@ -77,7 +81,10 @@ impl ElasticBody {
         let motions = vec![Pose::IDENTITY; rig.segments.len()];
         let sets = rig.sets.iter().map(|set| MassSpringSet::at_rest(set.anchor)).collect();
         let positions = rig.mesh.positions.clone();
+        let order = Arc::new(SkinOrder::new(&rig.weights, rig.segments.len()));
         let mut body = Self {
+            order,
+            moved: Vec::new(),
             rig,
             skins,
             motions,
@@ -171,25 +178,44 @@ impl ElasticBody {
         }
     }
 
-    /// Deforms every vertex by the spring stages alone, in parallel.
+    /// Deforms every vertex by the spring stages alone, in parallel: equation (18).
     pub fn deform_springs(&mut self) {
-        let Self { rig, palette, positions, .. } = self;
-        positions.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(|(v, position)| {
-            *position = palette.spring(rig.mesh.positions[v], &rig.weights[v]);
-        });
+        let Self { rig, palette, positions, order, moved, .. } = self;
+        let batches = order.pairs.par_iter().with_min_len(BATCHES);
+        batches
+            .map(|batch| {
+                let entry = &palette.segments[usize::from(batch.segment)];
+                let x = batch.vertices.map(|v| entry.motion.transform_point(rig.mesh.positions[v as usize]));
+                let local = entry.local.flow_wide(x, palette.integrator);
+                entry.global.flow_wide(local, palette.integrator)
+            })
+            .collect_into_vec(moved);
+        let moved = moved.as_flattened();
+        for ((position, slots), skin) in positions.iter_mut().zip(&order.slots).zip(&rig.weights) {
+            *position = (0..MAX_INFLUENCES)
+                .filter(|&k| slots[k] != u32::MAX)
+                .fold(Vec3::ZERO, |sum, k| sum + moved[slots[k] as usize] * skin.weights[k]);
+        }
     }
 
     /// Carries every vertex through one more collision pass, in parallel, and keeps the pass in the palette.
     pub fn deform_collision(&mut self, pass: super::CollisionPass) {
-        let integrator = self.palette.integrator;
-        let weights = &self.rig.weights;
-        self.positions.par_iter_mut().with_min_len(CHUNK).enumerate().for_each(|(v, position)| {
-            *position = pass.flow(*position, &weights[v], integrator);
-        });
-        self.palette.passes.push(pass);
+        let Self { rig, palette, positions, order, moved, .. } = self;
+        let batches = order.vertices.par_iter().with_min_len(BATCHES);
+        batches
+            .map(|batch| {
+                let x = batch.map(|v| positions[v as usize]);
+                pass.flow_wide(x, batch.map(|v| &rig.weights[v as usize]), palette.integrator)
+            })
+            .collect_into_vec(moved);
+        for (batch, moved) in order.vertices.iter().zip(moved.iter()) {
+            for (&v, &x) in batch.iter().zip(moved) {
+                positions[v as usize] = x;
+            }
+        }
+        palette.passes.push(pass);
     }
 }
 
-/// Vertices a task: small enough to share the work evenly, large enough not to drown in tasks. Results do not depend
-/// on it.
-const CHUNK: usize = 256;
+/// Batches a task: few enough to share the work evenly, many enough not to drown in tasks. Results do not depend on it.
+const BATCHES: usize = 32;

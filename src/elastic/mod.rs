@@ -2,6 +2,7 @@
 
 mod body;
 mod deform;
+mod deform_wide;
 mod palette;
 mod rest;
 mod rig;
@@ -10,6 +11,7 @@ mod rig_checks;
 mod rig_fault;
 mod rig_file;
 mod rig_raw;
+mod skin_order;
 mod tangent_normals;
 mod toml_text;
 mod weight_regions;

@@ -28,8 +28,8 @@ pub struct SkinSample {
     pub normal: Vec3,
 }
 
-/// A vertex belongs to a segment's contacts from this weight on.
-pub const MEMBER_WEIGHT: f32 = 0.05;
+/// A vertex belongs to a segment's contacts from this weight on: with less, the segment's field hardly moves it.
+pub const MEMBER_WEIGHT: f32 = 0.25;
 
 /// Skin samples a segment: enough to feel a bar a tenth of the segment thick, few enough to solve together.
 pub const SAMPLES_PER_SEGMENT: usize = 128;

@@ -12,6 +12,7 @@ mod part_distance;
 mod path_line;
 mod sphere;
 mod spring;
+mod wide;
 
 pub use certificate::{Lipschitz, certified_steps, usual_steps};
 pub use convex_hull::{ConvexHull, HullError};
@@ -22,3 +23,4 @@ pub use part::{ConvexPart, PartShape, PlacedPart};
 pub use path_line::{Integrator, path_line};
 pub use sphere::SphereField;
 pub use spring::SpringField;
+pub use wide::{LANES, WideVec};

@@ -57,10 +57,8 @@ pub struct ConvexPart {
 /// A convex part in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedPart {
-    /// The part in its own frame.
-    pub part: ConvexPart,
-    /// World from part.
-    pub pose: Pose,
+    part: ConvexPart,
+    pose: Pose,
     /// Rotation of `pose`, kept as a matrix: the distance is asked for many times a frame.
     rotation: Mat3,
 }
@@ -69,6 +67,21 @@ impl PlacedPart {
     /// Places a part.
     pub fn new(part: ConvexPart, pose: Pose) -> Self {
         Self { part, pose, rotation: Mat3::from_quat(pose.rotation) }
+    }
+
+    /// The part in its own frame.
+    pub fn part(&self) -> &ConvexPart {
+        &self.part
+    }
+
+    /// World from part.
+    pub fn pose(&self) -> &Pose {
+        &self.pose
+    }
+
+    /// Rotation of the pose as a matrix.
+    pub fn rotation(&self) -> &Mat3 {
+        &self.rotation
     }
 
     /// Euclidean distance of the world point `x` from the part (0 inside) and its gradient, the unit vector away from

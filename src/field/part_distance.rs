@@ -9,7 +9,13 @@ impl ConvexPart {
     /// from the part, zero inside.
     #[inline]
     pub fn distance(&self, x: Vec3) -> (f32, Vec3) {
-        let (distance, direction) = match &self.shape {
+        let (distance, direction) = self.distance_before_rounding(x);
+        if distance > self.rounding { (distance - self.rounding, direction) } else { (0.0, Vec3::ZERO) }
+    }
+
+    #[inline]
+    pub(super) fn distance_before_rounding(&self, x: Vec3) -> (f32, Vec3) {
+        match &self.shape {
             PartShape::Point => away(x),
             PartShape::Segment { a, b } => away(x - closest_on_segment(*a, *b, x)),
             PartShape::Cuboid { half_extents } => away(x - x.clamp(-*half_extents, *half_extents)),
@@ -20,8 +26,7 @@ impl ConvexPart {
                 if height > 0.0 { (height, *normal) } else { (0.0, Vec3::ZERO) }
             }
             PartShape::Hull(hull) => away(outside_hull(x, hull)),
-        };
-        if distance > self.rounding { (distance - self.rounding, direction) } else { (0.0, Vec3::ZERO) }
+        }
     }
 }
 
@@ -80,7 +85,7 @@ fn outside_cone(x: Vec3, half_height: f32, radius: f32) -> Vec3 {
 ///
 /// The triangle with the highest plane is tried first; most of the others then lie too far by the balls around them.
 #[inline]
-fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
+pub(super) fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
     let height = |&(normal, offset): &(Vec3, f32)| normal.dot(x) - offset;
     let (mut first, mut highest) = (0, f32::NEG_INFINITY);
     for (i, plane) in hull.planes().iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Path lines: where the flow of a time-dependent field carries a point (equation 15).
 
-use crate::math::Vec3;
+use std::ops::{Add, Div, Mul};
 
 /// A numerical integration rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -26,12 +26,17 @@ impl Integrator {
 }
 
 /// Carries `x` along the field `velocity(x, t)` from `t = 0` to `t = 1` in `steps` equal steps (`steps ≥ 1`).
+///
+/// `X` is a point, or eight of them.
 #[inline]
-pub fn path_line(mut x: Vec3, integrator: Integrator, steps: u32, velocity: impl Fn(Vec3, f32) -> Vec3) -> Vec3 {
+pub fn path_line<X>(mut x: X, integrator: Integrator, steps: u32, velocity: impl Fn(X, f32) -> X) -> X
+where
+    X: Copy + Add<Output = X> + Mul<f32, Output = X> + Div<f32, Output = X>,
+{
     let h = 1.0 / steps as f32;
     for i in 0..steps {
         let t = i as f32 * h;
-        x += h * match integrator {
+        let increment = match integrator {
             Integrator::Euler => velocity(x, t),
             Integrator::Midpoint => velocity(x + velocity(x, t) * (0.5 * h), t + 0.5 * h),
             Integrator::RungeKutta4 => {
@@ -39,9 +44,10 @@ pub fn path_line(mut x: Vec3, integrator: Integrator, steps: u32, velocity: impl
                 let k2 = velocity(x + k1 * (0.5 * h), t + 0.5 * h);
                 let k3 = velocity(x + k2 * (0.5 * h), t + 0.5 * h);
                 let k4 = velocity(x + k3 * h, t + h);
-                (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0
+                (k1 + k2 * 2.0 + k3 * 2.0 + k4) / 6.0
             }
         };
+        x = x + increment * h;
     }
     x
 }

@@ -110,7 +110,7 @@ fn collision_rows<'a>(
             rows
         }
         CollisionField::Hugging(field) => {
-            let (shape, one, two) = match &field.part.part.shape {
+            let (shape, one, two) = match &field.part.part().shape {
                 PartShape::Point => (SHAPE_POINT, Row::default(), Row::default()),
                 PartShape::Segment { a, b } => (SHAPE_SEGMENT, real(*a, 0.0), real(*b, 0.0)),
                 PartShape::Cuboid { half_extents } => (SHAPE_CUBOID, real(*half_extents, 0.0), Row::default()),
@@ -127,11 +127,11 @@ fn collision_rows<'a>(
                     Row::default(),
                 ),
             };
-            let [rotation, translation] = pose_rows(field.part.pose, origin);
+            let [rotation, translation] = pose_rows(*field.part.pose(), origin);
             [
                 [FIELD_HUGGING, segment, shape, 0],
                 real(field.d, field.width),
-                real(field.gauge - origin, field.part.part.rounding),
+                real(field.gauge - origin, field.part.part().rounding),
                 rotation,
                 translation,
                 one,

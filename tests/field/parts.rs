@@ -73,12 +73,12 @@ fn the_direction_leads_back_to_the_surface() {
     for kind in 0..12 * SHAPES {
         let placed = PlacedPart::new(part(&mut rng, kind), pose(&mut rng, 2.0));
         for _ in 0..300 {
-            let x = placed.pose.translation + in_cube(&mut rng, 1.5);
+            let x = placed.pose().translation + in_cube(&mut rng, 1.5);
             let (distance, direction) = placed.distance(x);
             let back = x - direction * distance;
-            assert!(placed.distance(back).0 < 2e-6, "{back} is off the surface of {:?}", placed.part);
+            assert!(placed.distance(back).0 < 2e-6, "{back} is off the surface of {:?}", placed.part());
             let halfway = x - direction * (0.5 * distance);
-            assert!((placed.distance(halfway).0 - 0.5 * distance).abs() < 2e-6, "{:?}", placed.part);
+            assert!((placed.distance(halfway).0 - 0.5 * distance).abs() < 2e-6, "{:?}", placed.part());
         }
     }
 }
@@ -90,7 +90,7 @@ fn the_direction_is_the_gradient_of_the_distance() {
     for kind in 0..12 * SHAPES {
         let placed = PlacedPart::new(part(&mut rng, kind), pose(&mut rng, 1.0));
         for _ in 0..300 {
-            let x = placed.pose.translation + in_cube(&mut rng, 1.5);
+            let x = placed.pose().translation + in_cube(&mut rng, 1.5);
             let (distance, direction) = placed.distance(x);
             // Close to the part the distance curves by 1 / distance, and ends at the surface.
             if distance < 0.1 {
@@ -102,7 +102,7 @@ fn the_direction_is_the_gradient_of_the_distance() {
             assert!(
                 gradient.distance(direction) < 0.6 * h / distance + 5e-4,
                 "{gradient} {direction} {:?}",
-                placed.part
+                placed.part()
             );
         }
     }
