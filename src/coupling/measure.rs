@@ -16,7 +16,7 @@ pub struct PenetrationFigures {
     pub max_depth_before: f32,
     /// Largest exact depth of a vertex after it.
     pub max_depth_after: f32,
-    /// Largest distance left between the skin and a part that it had penetrated.
+    /// Largest distance left between the skin and an obstacle that it had penetrated.
     pub max_gap: f32,
     /// Vertices deeper than [`INSIDE`] after it.
     pub vertices_inside: u32,
@@ -54,13 +54,14 @@ pub fn measure(
     }
 }
 
-/// For each part that the skin had penetrated, how far the skin is from it now.
-fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BTreeMap<usize, f32> {
+/// For each obstacle that the skin had penetrated, how far the skin is from it now. The parts of one obstacle count
+/// together: they overlap, and what leaves one of them may have to stop at the next.
+fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BTreeMap<(u32, u32), f32> {
     let mut gaps = BTreeMap::new();
     for contact in &report.contacts {
-        let part = &parts[contact.near.part];
-        let gap = gaps.entry(contact.near.part).or_insert(f32::INFINITY);
         for p in &contact.vertices {
+            let part = &parts[p.part];
+            let gap = gaps.entry(part.collider.into_raw_parts()).or_insert(f32::INFINITY);
             let x = body.positions()[p.vertex as usize];
             *gap = gap.min(part.shape.distance_to_point(part.placed.pose(), x, true));
         }

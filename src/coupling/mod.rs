@@ -8,12 +8,16 @@ mod gauge;
 mod literal;
 mod magnitude;
 mod obstacle;
+mod penetrations;
+mod probes;
+mod strength;
 
-pub use cancel::{CancelReport, CancelSettings, Contact, Penetration, Placement, cancel, find_contacts};
+pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
 pub use magnitude::complementarity;
 pub use obstacle::{LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, convex_parts, decompose};
+pub use penetrations::{Contact, Penetration, find_contacts};
 mod foundation;
 mod measure;
 mod ragdoll;

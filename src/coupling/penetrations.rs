@@ -1,0 +1,141 @@
+//! The contacts of a skin: which vertices of which segment have gone into which parts, and how deep.
+
+use std::collections::HashMap;
+
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
+use rayon::prelude::*;
+
+use super::contact::{Proximity, penetration};
+use super::obstacle::ObstaclePart;
+use crate::elastic::ElasticBody;
+use crate::math::Vec3;
+
+/// A vertex that has gone into a part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Penetration {
+    /// The vertex.
+    pub vertex: u32,
+    /// Index of the part in the list of obstacles around the body.
+    pub part: usize,
+    /// How far it must move along the contact's direction.
+    pub depth: f32,
+}
+
+/// One segment's penetration of one part, or of several that touch each other and push the same way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contact {
+    /// Segment, deepest part and direction.
+    pub near: Proximity,
+    /// The penetrating vertices, deepest first.
+    pub vertices: Vec<Penetration>,
+    /// Depth-weighted mean of the penetrating vertices, moved out to the part's surface.
+    pub point: Vec3,
+}
+
+/// The contacts of a skin with the parts near it, vertices deeper than `tolerance` only.
+///
+/// A vertex that several segments share belongs to the contact that leads it out of the part on the shortest way.
+pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
+    let found: Vec<Vec<Penetration>> =
+        near.par_iter().map(|near| find_penetrations(body, &parts[near.part], near, tolerance)).collect();
+    let mut shortest: HashMap<(usize, u32), (f32, usize)> = HashMap::new();
+    for (contact, (near, vertices)) in near.iter().zip(&found).enumerate() {
+        for p in vertices {
+            let best = shortest.entry((near.part, p.vertex)).or_insert((p.depth, contact));
+            if p.depth < best.0 {
+                *best = (p.depth, contact);
+            }
+        }
+    }
+    let mut contacts = Vec::new();
+    for (contact, (near, mut vertices)) in near.iter().zip(found).enumerate() {
+        vertices.retain(|p| shortest[&(near.part, p.vertex)].1 == contact);
+        if !vertices.is_empty() {
+            contacts.push(Contact::new(body, *near, vertices));
+        }
+    }
+    merged(body, parts, contacts)
+}
+
+/// Contacts of one segment with parts that touch each other count as one where they push nearly the same way: the fields
+/// of a hundred small parts side by side would only push against each other.
+fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>) -> Vec<Contact> {
+    contacts.sort_by(|a, b| b.depth().total_cmp(&a.depth()).then(a.near.part.cmp(&b.near.part)));
+    let mut groups: Vec<Contact> = Vec::new();
+    for contact in contacts {
+        let joins = |group: &&mut Contact| {
+            group.near.segment == contact.near.segment
+                && group.near.normal.dot(contact.near.normal) > SAME_WAY
+                && group.parts().any(|part| parts[part].aabb.intersects(&parts[contact.near.part].aabb))
+        };
+        match groups.iter_mut().find(joins) {
+            Some(group) => group.absorb(body, parts, &contact),
+            None => groups.push(contact),
+        }
+    }
+    groups.into_iter().map(|group| Contact::new(body, group.near, group.vertices)).collect()
+}
+
+/// Cosine between two directions that count as one.
+const SAME_WAY: f32 = 0.82;
+
+impl Contact {
+    fn new(body: &ElasticBody, near: Proximity, mut vertices: Vec<Penetration>) -> Self {
+        vertices.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.vertex.cmp(&b.vertex)));
+        let mut sum = Vec3::ZERO;
+        let mut weight = 0.0;
+        for p in &vertices {
+            sum += (body.positions()[p.vertex as usize] + near.normal * p.depth) * p.depth;
+            weight += p.depth;
+        }
+        Self { near, vertices, point: sum / weight }
+    }
+
+    /// Depth of the deepest vertex.
+    pub fn depth(&self) -> f32 {
+        self.vertices.first().map_or(0.0, |p| p.depth)
+    }
+
+    /// The parts that the vertices are in, with repetitions.
+    pub fn parts(&self) -> impl Iterator<Item = usize> + '_ {
+        self.vertices.iter().map(|p| p.part)
+    }
+
+    /// Takes over the vertices of another contact, with their depths along this one's direction.
+    fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
+        let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;
+        for p in &other.vertices {
+            let x = body.positions()[p.vertex as usize];
+            let depth = parts[p.part].exit(x, self.near.normal, reach).unwrap_or(p.depth);
+            match self.vertices.iter_mut().find(|own| own.vertex == p.vertex) {
+                Some(own) if own.depth >= depth => {}
+                Some(own) => *own = Penetration { depth, ..*p },
+                None => self.vertices.push(Penetration { depth, ..*p }),
+            }
+        }
+    }
+}
+
+fn find_penetrations(body: &ElasticBody, part: &ObstaclePart, near: &Proximity, tolerance: f32) -> Vec<Penetration> {
+    let skin = &body.skins()[usize::from(near.segment)];
+    let motion = body.motions()[usize::from(near.segment)];
+    let reach = 2.0 * skin.size;
+    // Nothing outside the part's box and its shadow, on the far side from the segment, can have gone in.
+    let shadow =
+        part.aabb.merged(&Aabb::new(part.aabb.mins - near.normal * reach, part.aabb.maxs - near.normal * reach));
+    let inward = motion.rotation.inverse() * near.normal;
+    let mut vertices = Vec::new();
+    for &vertex in &skin.vertices {
+        let x = body.positions()[vertex as usize];
+        if !shadow.contains_local_point(x) {
+            continue;
+        }
+        let facing = body.rig().mesh.normals[vertex as usize].dot(inward);
+        if let Some(depth) = penetration(part, near, x, facing, reach)
+            && depth > tolerance
+        {
+            vertices.push(Penetration { vertex, part: near.part, depth });
+        }
+    }
+    vertices
+}
