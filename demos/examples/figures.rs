@@ -8,6 +8,7 @@ fn main() -> anyhow::Result<()> {
     let mut sim = Simulation::new(scene, seed)?;
     let mut sum = [0.0f32; 5];
     for f in 0..sim.frames() {
+        if std::env::var("DBG").is_ok() { eprintln!("frame {f}"); }
         sim.step();
         let t = sim.times();
         for (s, v) in sum.iter_mut().zip([sim.rigid_ms, t.springs, t.contact, t.deform, t.measure]) {

@@ -78,12 +78,20 @@ pub fn cancel(
     let tolerance = settings.depth_tolerance * size;
     let softness = settings.softness.unwrap_or(body.rig().softness);
     while report.passes < settings.max_passes {
-        let contacts = find_contacts(body, parts, near, tolerance);
+        let mut contacts = find_contacts(body, parts, near, tolerance);
         if contacts.is_empty() {
             break;
         }
+        // What two passes leave over is small and wedged: it is pushed out on the nearest way, by narrower fields.
+        let mut reach = softness;
+        for _ in WIDE_PASSES..=report.passes {
+            reach *= 0.5;
+        }
+        if report.passes >= WIDE_PASSES {
+            contacts = contacts.into_iter().map(|contact| contact.by_the_nearest_way(body, parts)).collect();
+        }
         let pass = match settings.placement {
-            Placement::Hugging => solve_pass(body, parts, &contacts, softness, size, settings),
+            Placement::Hugging => solve_pass(body, parts, &contacts, reach, size, settings),
             Placement::Literal => super::literal::place(body, parts, near, softness),
         };
         report.passes += 1;
@@ -98,3 +106,6 @@ pub fn cancel(
     }
     report
 }
+
+/// Passes with fields of full width.
+const WIDE_PASSES: u32 = 2;

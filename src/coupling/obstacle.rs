@@ -124,6 +124,12 @@ impl ObstaclePart {
         self.aabb.contains_local_point(x) && self.placed.distance(x).0 == 0.0
     }
 
+    /// From `x` to the nearest point of the part's surface where `x` is inside, zero outside.
+    pub fn way_to_surface(&self, x: Vec3) -> Vec3 {
+        let projection = self.shape.project_point(self.placed.pose(), x, false);
+        if projection.is_inside { projection.point - x } else { Vec3::ZERO }
+    }
+
     /// Exact depth of `x` below the part's surface by parry's point projection, 0 outside.
     pub fn exact_depth(&self, x: Vec3) -> f32 {
         if !self.aabb.contains_local_point(x) {

@@ -101,6 +101,27 @@ impl Contact {
         self.vertices.iter().map(|p| p.part)
     }
 
+    /// The same contact with the direction in which its vertices are nearest to the surface, on the whole.
+    ///
+    /// The way towards the segment's axis is right for all of a contact; what it leaves over, wedged between segments that
+    /// are pushed different ways, gets out on the shortest way. A direction that leads to the far side of a thin part is
+    /// not taken.
+    pub fn by_the_nearest_way(self, body: &ElasticBody, parts: &[ObstaclePart]) -> Self {
+        let mut sum = Vec3::ZERO;
+        for p in &self.vertices {
+            sum += parts[p.part].way_to_surface(body.positions()[p.vertex as usize]);
+        }
+        let Some(normal) = sum.try_normalize().filter(|n| n.dot(self.near.normal) > 0.0) else { return self };
+        let near = Proximity { normal, ..self.near };
+        let reach = 2.0 * body.skins()[usize::from(near.segment)].size;
+        let along = |p: &Penetration| {
+            let depth = parts[p.part].exit(body.positions()[p.vertex as usize], normal, reach)?;
+            Some(Penetration { depth, ..*p })
+        };
+        let vertices: Vec<Penetration> = self.vertices.iter().filter_map(along).collect();
+        if vertices.is_empty() { self } else { Self::new(body, near, vertices) }
+    }
+
     /// Takes over the vertices of another contact, with their depths along this one's direction.
     fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
         let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;

@@ -132,7 +132,10 @@ fn influence(
             let unit = strength[j].max(1.0e-4 * field.width);
             let probe = HuggingField { d: contacts[j].near.normal * unit, ..field.clone() };
             let halfway = x + contact.near.normal * (0.5 * strength[i]);
-            matrix[i * n + j] = weight * probe.velocity(halfway, 0.5).dot(contact.near.normal) / unit;
+            let share = weight * probe.velocity(halfway, 0.5).dot(contact.near.normal) / unit;
+            // A field that pushes another contact deeper is not made up for by a stronger one, which would push back in
+            // turn: the next pass sees what is left.
+            matrix[i * n + j] = share.max(0.0);
         }
     }
     matrix

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DMat3, DVec3};
 
+use super::part_distance::closest_on_triangle;
 use crate::math::Vec3;
 
 /// A convex polyhedron by its triangles, with the plane of each.
@@ -11,7 +12,8 @@ use crate::math::Vec3;
 pub struct ConvexHull {
     triangles: Vec<[Vec3; 3]>,
     planes: Vec<(Vec3, f32)>,
-    balls: Vec<(Vec3, f32)>,
+    /// For each triangle those that share a corner with it.
+    neighbours: Vec<Vec<u32>>,
     rounding_error: f32,
 }
 
@@ -47,8 +49,8 @@ impl ConvexHull {
             return Err(error);
         }
         let rounding_error = 1.0e-6 * corners.iter().map(|p| p.length()).fold(0.0, f32::max);
-        let balls = triangles.iter().map(ball).collect();
-        Ok(Self { triangles, planes, balls, rounding_error })
+        let neighbours = neighbours(&triangles);
+        Ok(Self { triangles, planes, neighbours, rounding_error })
     }
 
     /// Corners of each face triangle, counter-clockwise seen from outside.
@@ -61,9 +63,33 @@ impl ConvexHull {
         &self.planes
     }
 
-    /// Centre and radius of a ball around each triangle: what is farther from the ball is farther from the triangle.
-    pub fn balls(&self) -> &[(Vec3, f32)] {
-        &self.balls
+    /// The nearest point of the hull to a point `x` above the plane of triangle `start`.
+    ///
+    /// The search walks from triangle to triangle that share a corner, always to one that is nearer, among those that
+    /// `x` lies above. The hull is convex, so the first triangle without a nearer neighbour is the nearest of all.
+    #[inline]
+    pub(super) fn nearest_from(&self, x: Vec3, start: usize) -> Vec3 {
+        let mut current = start;
+        let mut best = closest_on_triangle(&self.triangles[start], x);
+        let mut distance = x.distance_squared(best);
+        loop {
+            let from = current;
+            for &i in &self.neighbours[from] {
+                let (normal, offset) = self.planes[i as usize];
+                let height = normal.dot(x) - offset;
+                if height <= 0.0 || height * height >= distance {
+                    continue;
+                }
+                let point = closest_on_triangle(&self.triangles[i as usize], x);
+                let nearer = x.distance_squared(point);
+                if nearer < distance {
+                    (current, best, distance) = (i as usize, point, nearer);
+                }
+            }
+            if current == from {
+                return best;
+            }
+        }
     }
 
     /// A height over all planes below which a point counts as inside: what rounding makes of a height of zero.
@@ -81,11 +107,22 @@ fn plane(triangle: &[Vec3; 3], corners: &[Vec3]) -> Option<(Vec3, f32)> {
     Some((normal, offset as f32))
 }
 
-/// A ball around a triangle, about its middle.
-fn ball(triangle: &[Vec3; 3]) -> (Vec3, f32) {
-    let middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-    let radius = triangle.iter().map(|p| p.distance(middle)).fold(0.0, f32::max);
-    (middle, radius * (1.0 + 4.0 * f32::EPSILON))
+fn neighbours(triangles: &[[Vec3; 3]]) -> Vec<Vec<u32>> {
+    let bits = |p: &Vec3| p.to_array().map(f32::to_bits);
+    let mut around: HashMap<[u32; 3], Vec<u32>> = HashMap::new();
+    for (i, triangle) in triangles.iter().enumerate() {
+        for corner in triangle {
+            around.entry(bits(corner)).or_default().push(i as u32);
+        }
+    }
+    let others = |(i, triangle): (usize, &[Vec3; 3])| {
+        let mut all: Vec<u32> = triangle.iter().flat_map(|corner| around[&bits(corner)].iter().copied()).collect();
+        all.sort_unstable();
+        all.dedup();
+        all.retain(|&other| other != i as u32);
+        all
+    };
+    triangles.iter().enumerate().map(others).collect()
 }
 
 /// Affine coordinates by four of the points that span a tetrahedron as large as a greedy choice finds.

@@ -83,7 +83,7 @@ fn outside_cone(x: Vec3, half_height: f32, radius: f32) -> Vec3 {
 /// A point on a face, or just beneath it, may by rounding seem to lie above another triangle of the same face, far from
 /// its border: what is not above any plane by more than rounding counts as inside.
 ///
-/// The triangle with the highest plane is tried first; most of the others then lie too far by the balls around them.
+/// The search starts at the triangle with the highest plane.
 #[inline]
 pub(super) fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
     let height = |&(normal, offset): &(Vec3, f32)| normal.dot(x) - offset;
@@ -97,20 +97,7 @@ pub(super) fn outside_hull(x: Vec3, hull: &ConvexHull) -> Vec3 {
     if highest <= hull.rounding_error() {
         return Vec3::ZERO;
     }
-    let mut best = x - closest_on_triangle(&hull.triangles()[first], x);
-    let mut distance = best.length();
-    for (i, &(centre, radius)) in hull.balls().iter().enumerate() {
-        let bound = distance + radius;
-        if i == first || x.distance_squared(centre) >= bound * bound || height(&hull.planes()[i]) <= 0.0 {
-            continue;
-        }
-        let away = x - closest_on_triangle(&hull.triangles()[i], x);
-        let length = away.length();
-        if length < distance {
-            (best, distance) = (away, length);
-        }
-    }
-    best
+    x - hull.nearest_from(x, first)
 }
 
 /// The point of a triangle that is nearest to `x`, by the Voronoi regions of its corners and edges (Ericson, *Real-Time

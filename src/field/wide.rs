@@ -5,9 +5,9 @@ use std::ops::{Add, Div, Mul, Sub};
 
 use wide::f32x8;
 
+use super::convex_hull::ConvexHull;
 use super::hugging::HuggingField;
 use super::part::PartShape;
-use super::part_distance::outside_hull;
 use super::spring::SpringField;
 use crate::math::Vec3;
 
@@ -164,7 +164,7 @@ impl HuggingField {
                 let above = height.simd_gt(zero).select(height, zero);
                 WideVec::splat(*normal).scaled(above)
             }
-            PartShape::Hull(hull) => WideVec::from_lanes(x.to_lanes().map(|x| outside_hull(x, hull))),
+            PartShape::Hull(hull) => outside_hull_wide(x, hull),
             PartShape::Cone { .. } => {
                 let outside = |x| {
                     let (distance, direction) = self.part.part().distance_before_rounding(x);
@@ -174,4 +174,27 @@ impl HuggingField {
             }
         }
     }
+}
+
+/// The scalar `outside_hull` of eight points: the highest plane of each is found eight points at a time.
+fn outside_hull_wide(x: WideVec, hull: &ConvexHull) -> WideVec {
+    let mut highest = f32x8::splat(f32::NEG_INFINITY);
+    let mut first = f32x8::ZERO;
+    for (i, &(normal, offset)) in hull.planes().iter().enumerate() {
+        let height = x.dot_all(normal) - f32x8::splat(offset);
+        let higher = height.simd_gt(highest);
+        highest = higher.select(height, highest);
+        first = higher.select(f32x8::splat(i as f32), first);
+    }
+    let highest = highest.to_array();
+    if highest.iter().all(|&height| height <= hull.rounding_error()) {
+        return WideVec::ZERO;
+    }
+    let points = x.to_lanes();
+    let first = first.to_array();
+    let outside = |lane: usize| match highest[lane] > hull.rounding_error() {
+        true => points[lane] - hull.nearest_from(points[lane], first[lane] as usize),
+        false => Vec3::ZERO,
+    };
+    WideVec::from_lanes(std::array::from_fn(outside))
 }

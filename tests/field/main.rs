@@ -17,3 +17,4 @@ mod parts;
 mod path_line;
 mod samples;
 mod volume;
+mod wide;
