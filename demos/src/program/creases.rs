@@ -12,7 +12,7 @@ const CREASE: f32 = 40.0;
 /// A mesh whose vertices are split where the faces around them turn by more than the crease angle.
 pub fn creased(positions: &[Vec3], triangles: &[[u32; 3]]) -> MeshData {
     let corner = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
-    let areas: Vec<Vec3> = triangles.iter().map(|t| corner(t)).map(|[a, b, c]| (b - a).cross(c - a)).collect();
+    let areas: Vec<Vec3> = triangles.iter().map(corner).map(|[a, b, c]| (b - a).cross(c - a)).collect();
     let units: Vec<Vec3> = areas.iter().map(|n| n.normalize_or_zero()).collect();
     let mut around: HashMap<[u32; 3], Vec<usize>> = HashMap::new();
     let key = |p: Vec3| (p + 0.0).to_array().map(f32::to_bits);

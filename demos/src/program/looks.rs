@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::render::{Camera, Ground, Material, Region};
+use crate::render::{Camera, Ground, Material, Region, Sun};
 use crate::scene::{self, Obstacle, ObstacleShape, Scene};
 use crate::simulation::{Actor, Simulation};
 
@@ -13,6 +13,14 @@ const GROUND_WIDTH: f32 = 20.0;
 pub fn camera(of: &scene::Camera) -> Camera {
     let near = (0.01 * of.eye.distance(of.target)).clamp(0.01, 0.1);
     Camera { eye: of.eye, target: of.target, fov: of.fov_degrees.to_radians(), near, ..Camera::default() }
+}
+
+/// A sun over the left shoulder of who looks along the scene's camera: it reaches into what is open towards the camera,
+/// and shadows fall away to the right.
+pub fn sun(of: &scene::Camera) -> Sun {
+    let back = (of.eye - of.target).with_y(0.0).normalize_or(Vec3::Z);
+    let left = back.cross(Vec3::Y);
+    Sun { direction: 0.75 * back + 0.6 * left + 1.15 * Vec3::Y, ..Sun::default() }
 }
 
 /// Scenes give colours as screens show them; light is reckoned linear.
@@ -32,7 +40,9 @@ pub fn obstacle(obstacle: &Obstacle) -> Material {
     let stone = Material { roughness: 0.75, ..Material::plain(Vec3::new(0.30, 0.285, 0.27)) };
     let usual = match &obstacle.shape {
         ObstacleShape::Cylinder { .. } | ObstacleShape::Capsule { .. } => Material::steel(),
-        ObstacleShape::Cuboid { .. } | ObstacleShape::Cone { .. } => Material::slate(),
+        ObstacleShape::Cuboid { .. } | ObstacleShape::Cone { .. } => {
+            Material { colour: Vec3::new(0.36, 0.39, 0.43), ..Material::slate() }
+        }
         ObstacleShape::Ball { .. } => Material::glossy(Vec3::new(0.42, 0.07, 0.05)),
         ObstacleShape::Mesh { .. } => stone,
     };
@@ -43,9 +53,10 @@ pub fn obstacle(obstacle: &Obstacle) -> Material {
     if obstacle.opacity >= 1.0 {
         return solid;
     }
-    let glass = Material::glass();
+    // Dark glass: a bright one would be a veil over what is behind it.
+    let glass = Material { colour: Vec3::new(0.10, 0.15, 0.20), ..Material::glass() };
     let colour = obstacle.colour.map_or(glass.colour, linear);
-    Material { colour, alpha: obstacle.opacity, ..glass }
+    Material { colour, alpha: 0.6 * obstacle.opacity, ..glass }
 }
 
 /// The ground that an obstacle is, if it is one.

@@ -14,7 +14,7 @@ use super::memory_skin::MemorySkin;
 use super::moment::Moment;
 use super::overlays::{self, Shown};
 use super::surfaces;
-use crate::render::{Frame, Ground, Item, Material, MeshId, Region, Renderer, Sun};
+use crate::render::{Frame, Ground, Item, Material, MeshId, Region, Renderer};
 use crate::simulation::Simulation;
 
 /// Colour of the edges of triangles.
@@ -111,7 +111,7 @@ impl Painter {
         }
         Frame {
             camera: looks::camera(&simulation.scene.camera),
-            sun: Sun::default(),
+            sun: looks::sun(&simulation.scene.camera),
             ground: self.ground,
             region: self.region,
             items,
@@ -139,5 +139,54 @@ impl Painter {
             (Skin::Memory(skin), _) => skin.show(renderer, [from, to], alpha).ok(),
             (Skin::Compute(_), _) => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::choose;
+    use crate::render::device::tests::device_or_skip;
+    use crate::render::{Picture, picture};
+
+    const SIZE: [u32; 2] = [200, 240];
+
+    #[test]
+    fn between_two_steps_both_ways_of_deforming_draw_the_same() {
+        let Some(gpu) = device_or_skip("between_two_steps_both_ways_of_deforming_draw_the_same") else { return };
+        let mut simulation = choose::simulation("tower", 0).unwrap();
+        let mut moments = [Moment::of(&simulation), Moment::of(&simulation)];
+        for _ in 0..45 {
+            simulation.step();
+            moments.swap(0, 1);
+            moments[1] = Moment::of(&simulation);
+        }
+        let middle = moments[1].bodies[0].positions[0];
+        let pictures = [true, false].map(|compute| {
+            let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, SIZE);
+            let mut painter = Painter::new(&mut renderer, &simulation, compute);
+            let target = Picture::new(&gpu.device, SIZE);
+            [0.0, 0.3, 1.0].map(|alpha| {
+                let mut frame = painter.frame(&mut renderer, &simulation, [&moments[0], &moments[1]], alpha);
+                frame.camera.target = middle;
+                frame.camera.eye = middle + glam::Vec3::new(1.0, 0.5, 3.5);
+                assert_eq!(painter.trouble(), None);
+                target.take(&mut renderer, &frame).unwrap()
+            })
+        });
+        let difference = |a: &image::RgbaImage, b: &image::RgbaImage| {
+            let sum: u64 = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+            sum as f64 / a.as_raw().len() as f64
+        };
+        let [device, memory] = &pictures;
+        let moved = difference(&memory[0], &memory[2]);
+        assert!(moved > 1.0, "the camel falls: {moved}");
+        for (device, memory) in device.iter().zip(memory) {
+            let apart = difference(device, memory);
+            assert!(apart < 0.1 * moved, "{apart} of {moved}");
+        }
+        let early = difference(&device[0], &device[1]);
+        let late = difference(&device[1], &device[2]);
+        assert!(0.0 < early && early < late, "at 0.3 the earlier step is nearer: {early}, {late}");
     }
 }

@@ -10,7 +10,7 @@ use super::painter::Painter;
 use super::{choose, looks};
 use crate::render::{Camera, Frame, Renderer};
 use crate::scene::scene_names;
-use crate::simulation::Simulation;
+use crate::simulation::{BuildError, Simulation};
 use crate::window::Stage;
 
 /// Plays one scene at a time.
@@ -50,15 +50,26 @@ impl Player {
         })
     }
 
-    /// Takes over a new simulation; settings of the panel stay.
-    fn begin(&mut self, mut simulation: Simulation) {
-        let softness = simulation.deformation.settings.cancel.softness;
-        simulation.deformation.settings = self.simulation.deformation.settings;
-        simulation.deformation.settings.cancel.softness = softness;
+    fn begin(&mut self, simulation: Simulation) {
         let now = Moment::of(&simulation);
         self.moments = [now.clone(), now];
         self.simulation = simulation;
         self.painter = None;
+        self.trouble = None;
+    }
+
+    /// The scene from its beginning, with the settings that the panel has now.
+    fn again(&self) -> Result<Simulation, BuildError> {
+        let old = &self.simulation;
+        let mut new = Simulation::new(old.scene.clone(), self.seed)?;
+        new.deformation.settings = old.deformation.settings;
+        for (before, after) in old.actors.iter().zip(&new.actors) {
+            let settings = old.deformation.get(before.handle).map(|body| body.settings);
+            if let (Some(settings), Some(body)) = (settings, new.deformation.get_mut(after.handle)) {
+                body.settings = settings;
+            }
+        }
+        Ok(new)
     }
 }
 
@@ -80,13 +91,8 @@ impl Stage for Player {
     }
 
     fn restart(&mut self) {
-        let softness = self.simulation.deformation.settings.cancel.softness;
-        match Simulation::new(self.simulation.scene.clone(), self.seed) {
-            Ok(simulation) => {
-                self.begin(simulation);
-                self.simulation.deformation.settings.cancel.softness = softness;
-                self.trouble = None;
-            }
+        match self.again() {
+            Ok(simulation) => self.begin(simulation),
             Err(error) => self.trouble = Some(error.to_string()),
         }
     }
@@ -154,5 +160,38 @@ impl Stage for Player {
         let (time, rigid) = (self.simulation.time(), self.simulation.rigid_ms);
         panel.strong(format!("After {time:.2} s"));
         ui::figures(panel, &self.simulation.deformation, Some(rigid));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_restart_returns_to_the_start_and_keeps_the_settings() {
+        let mut player = Player::open(&RunArgs::of("tower")).unwrap();
+        let start = player.moments[1].bodies[0].positions.clone();
+        (0..3).for_each(|_| player.step());
+        assert_eq!((player.moments[0].step, player.moments[1].step), (2, 3));
+        player.simulation.deformation.settings.stiffness = 3.0;
+        let handle = player.simulation.actors[0].handle;
+        player.simulation.deformation.get_mut(handle).unwrap().settings.enabled = false;
+        player.restart();
+        assert!(player.moments.iter().all(|moment| moment.step == 0 && moment.bodies[0].positions == start));
+        assert_eq!(player.simulation.deformation.settings.stiffness, 3.0);
+        let handle = player.simulation.actors[0].handle;
+        assert!(!player.simulation.deformation.get(handle).unwrap().settings.enabled);
+    }
+
+    #[test]
+    fn a_scene_that_cannot_be_loaded_is_told_and_the_old_one_goes_on() {
+        let mut player = Player::open(&RunArgs::of("tower")).unwrap();
+        player.names.push("nowhere".into());
+        let (current, broken) = (player.current_scene(), player.names.len() - 1);
+        assert!(player.load_scene(broken).unwrap_err().contains("`nowhere`"));
+        assert_eq!(player.current_scene(), current);
+        player.step();
+        assert!(player.load_scene(current).is_ok() && player.moments[1].step == 0);
+        assert!(Player::open(&RunArgs::of("nowhere")).is_err());
     }
 }
