@@ -74,8 +74,8 @@ impl RunArgs {
 fn size(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     match sides {
-        Some(sides) if sides.iter().all(|side| (16..=8192).contains(side)) => Ok(sides),
-        Some(_) => Err("each side must be from 16 to 8192".into()),
+        Some(sides) if sides.iter().all(|side| (16..=4096).contains(side)) => Ok(sides),
+        Some(_) => Err("each side must be from 16 to 4096".into()),
         None => Err("write it like 960x540".into()),
     }
 }

@@ -30,10 +30,15 @@ pub fn run(args: &RunArgs) -> anyhow::Result<()> {
         simulation.step();
         summary.add(&simulation);
         files.write(frame, &simulation)?;
-        if let Some(pictures) = pictures.as_mut().filter(|p| p.wants(frame)) {
+        if let Some(drawing) = pictures.as_mut().filter(|p| p.wants(frame)) {
             let clock = Instant::now();
-            pictures.draw(frame, &simulation)?;
-            summary.add_picture(clock.elapsed().as_secs_f32() * 1.0e3);
+            match drawing.draw(frame, &simulation)? {
+                None => summary.add_picture(clock.elapsed().as_secs_f32() * 1.0e3),
+                Some(complaint) => {
+                    tell(&format!("no more pictures: {complaint}"));
+                    pictures = None;
+                }
+            }
         }
         bar.inc(1);
     }

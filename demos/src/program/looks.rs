@@ -35,14 +35,15 @@ pub fn body(actor: &Actor) -> Material {
     Material { colour: actor.colour.map_or(skin.colour, linear), ..skin }
 }
 
-/// An obstacle: metal for bars, slate for walls, stone for meshes, varnish for balls; glass where one sees through.
+/// An obstacle: dark lacquer for bars, slate for walls, stone for meshes, varnish for balls; glass where one sees through.
 pub fn obstacle(obstacle: &Obstacle) -> Material {
     let stone = Material { roughness: 0.75, ..Material::plain(Vec3::new(0.30, 0.285, 0.27)) };
+    let wall = Material { colour: Vec3::new(0.36, 0.39, 0.43), ..Material::slate() };
+    let bar = Material { colour: Vec3::new(0.07, 0.09, 0.13), roughness: 0.4, clearcoat: 0.6, ..Material::default() };
     let usual = match &obstacle.shape {
-        ObstacleShape::Cylinder { .. } | ObstacleShape::Capsule { .. } => Material::steel(),
-        ObstacleShape::Cuboid { .. } | ObstacleShape::Cone { .. } => {
-            Material { colour: Vec3::new(0.36, 0.39, 0.43), ..Material::slate() }
-        }
+        ObstacleShape::Cylinder { .. } | ObstacleShape::Capsule { .. } => bar,
+        ObstacleShape::Cuboid { half_extents } if is_slender(*half_extents) => bar,
+        ObstacleShape::Cuboid { .. } | ObstacleShape::Cone { .. } => wall,
         ObstacleShape::Ball { .. } => Material::glossy(Vec3::new(0.42, 0.07, 0.05)),
         ObstacleShape::Mesh { .. } => stone,
     };
@@ -57,6 +58,13 @@ pub fn obstacle(obstacle: &Obstacle) -> Material {
     let glass = Material { colour: Vec3::new(0.10, 0.15, 0.20), ..Material::glass() };
     let colour = obstacle.colour.map_or(glass.colour, linear);
     Material { colour, alpha: 0.6 * obstacle.opacity, ..glass }
+}
+
+/// Whether a box is a beam rather than a wall.
+fn is_slender(half_extents: Vec3) -> bool {
+    let mut sides = half_extents.to_array();
+    sides.sort_by(f32::total_cmp);
+    sides[2] > 4.0 * sides[1]
 }
 
 /// The ground that an obstacle is, if it is one.

@@ -16,6 +16,7 @@ mod pictures;
 mod player;
 mod summary;
 mod surfaces;
+mod watch;
 
 use std::io::Write;
 use std::process::ExitCode;

@@ -20,6 +20,9 @@ use crate::simulation::Simulation;
 /// Colour of the edges of triangles.
 const WIRE: [f32; 4] = [0.02, 0.02, 0.03, 0.55];
 
+/// Glass fainter than this casts no shadow: it would be more grain than shadow.
+const FAINTEST_CASTER: f32 = 0.3;
+
 /// Draws one simulation with the meshes of one renderer.
 pub struct Painter {
     passes: Option<Passes>,
@@ -106,7 +109,8 @@ impl Painter {
         let [from, to] = moments.map(|moment| &moment.obstacles);
         for ((obstacle, from), to) in self.obstacles.iter().zip(from).zip(to) {
             if let Some((mesh, material)) = obstacle {
-                items.push(Item::new(*mesh, from.lerp(to, alpha).to_mat4(), *material));
+                let item = Item::new(*mesh, from.lerp(to, alpha).to_mat4(), *material);
+                items.push(Item { casts_shadow: material.alpha >= FAINTEST_CASTER, ..item });
             }
         }
         Frame {

@@ -8,6 +8,7 @@ use super::args::RunArgs;
 use super::moment::Moment;
 use super::painter::Painter;
 use super::tell;
+use super::watch::Watch;
 use crate::output::write_picture;
 use crate::render::{Gpu, Picture, Renderer, picture};
 use crate::simulation::Simulation;
@@ -23,6 +24,7 @@ pub struct Pictures {
     folder: PathBuf,
     size: [u32; 2],
     every: u64,
+    watch: Watch,
 }
 
 impl Pictures {
@@ -39,13 +41,14 @@ impl Pictures {
             let name = &gpu.name;
             tell(&format!("{name} draws in software: a picture of every {every}th frame (--picture-every 1: of all)"));
         }
+        let watch = Watch::over(&gpu.device);
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, args.size);
         let painter = Painter::new(&mut renderer, simulation, !args.cpu);
         if let Some(trouble) = painter.trouble() {
             tell(&format!("the processor deforms the pictures' vertices: {trouble}"));
         }
         let target = Picture::new(&gpu.device, args.size);
-        Ok(Self { renderer, target, painter, folder: folder.into(), size: args.size, every })
+        Ok(Self { renderer, target, painter, folder: folder.into(), size: args.size, every, watch })
     }
 
     /// Whether a frame gets a picture.
@@ -53,12 +56,18 @@ impl Pictures {
         (frame as u64).is_multiple_of(self.every)
     }
 
-    /// Draws and writes a frame.
-    pub fn draw(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<()> {
+    /// Draws and writes a frame. What the device complains about is returned; nothing is written then.
+    pub fn draw(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<Option<String>> {
         let now = Moment::of(simulation);
         let described = self.painter.frame(&mut self.renderer, simulation, [&now, &now], 1.0);
-        let image = self.target.take(&mut self.renderer, &described)?;
-        write_picture(&self.folder, frame, self.size[0], self.size[1], image.as_raw())?;
-        Ok(())
+        let taken = self.target.take(&mut self.renderer, &described);
+        if let Some(complaint) = self.watch.complaint() {
+            return Ok(Some(complaint));
+        }
+        match taken {
+            Ok(image) => write_picture(&self.folder, frame, self.size[0], self.size[1], image.as_raw())?,
+            Err(error) => return Ok(Some(error.to_string())),
+        };
+        Ok(None)
     }
 }
