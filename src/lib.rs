@@ -16,4 +16,6 @@ pub mod gpu;
 pub mod math;
 pub mod mesh;
 pub mod spring;
+#[cfg(feature = "ui")]
+pub mod ui;
 pub mod world;

@@ -2,6 +2,7 @@
 
 pub mod modeller;
 pub mod output;
+pub mod program;
 pub mod render;
 pub mod scene;
 pub mod simulation;

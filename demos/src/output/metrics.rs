@@ -19,11 +19,11 @@ pub struct MetricsRow {
     pub body: String,
     /// Volume of the deformed surface as a part of that at rest.
     pub volume_ratio: f64,
-    /// Deepest penetration of a vertex before it is cancelled, in metres.
+    /// Deepest penetration of a vertex before it is cancelled, as a part of the body's size.
     pub max_depth_before: f32,
-    /// Deepest penetration that is left, in metres.
+    /// Deepest penetration that is left, as a part of the body's size.
     pub max_depth_after: f32,
-    /// Widest gap to an obstacle that is touched, in metres.
+    /// Widest gap to an obstacle that is touched, as a part of the body's size.
     pub max_gap: f32,
     /// Vertices that are still inside an obstacle.
     pub vertices_inside: usize,

@@ -1,0 +1,103 @@
+//! The figures of a run in one line.
+
+use std::fmt;
+
+use crate::simulation::Simulation;
+
+/// A body that is nowhere faster than this is at rest, in metres a second.
+const STILL: f32 = 0.1;
+
+/// For at least so many seconds.
+const STILL_TIME: f32 = 0.5;
+
+/// Figures gathered frame by frame.
+#[derive(Clone, Debug, Default)]
+pub struct Summary {
+    frames: u64,
+    bodies: usize,
+    seconds: f32,
+    before: f32,
+    after: f32,
+    gap: f32,
+    frames_inside: u64,
+    volume: Option<[f32; 2]>,
+    /// Sums of milliseconds: rigid, springs, contact, deform, measure.
+    stages: [f32; 5],
+    still_since: Option<f32>,
+    speed: f32,
+    pictures: u64,
+    picture_ms: f32,
+}
+
+impl Summary {
+    /// Takes in the state after a step.
+    pub fn add(&mut self, simulation: &Simulation) {
+        self.frames += 1;
+        self.bodies = simulation.actors.len();
+        self.seconds = simulation.time();
+        let mut inside = false;
+        for report in simulation.actors.iter().map(|actor| simulation.report(actor)) {
+            let figures = report.penetration;
+            self.before = self.before.max(figures.max_depth_before);
+            self.after = self.after.max(figures.max_depth_after);
+            self.gap = self.gap.max(figures.max_gap);
+            inside |= figures.vertices_inside > 0;
+            let [low, high] = self.volume.unwrap_or([f32::INFINITY, f32::NEG_INFINITY]);
+            self.volume = Some([low.min(report.volume_ratio), high.max(report.volume_ratio)]);
+        }
+        self.frames_inside += u64::from(inside);
+        let times = simulation.times();
+        let stages = [simulation.rigid_ms, times.springs, times.contact, times.deform, times.measure];
+        for (sum, stage) in self.stages.iter_mut().zip(stages) {
+            *sum += stage;
+        }
+        self.speed = fastest(simulation);
+        self.still_since = match self.still_since {
+            _ if self.speed > STILL => None,
+            None => Some(self.seconds),
+            since => since,
+        };
+    }
+
+    /// Takes in the time that a picture took.
+    pub fn add_picture(&mut self, milliseconds: f32) {
+        self.pictures += 1;
+        self.picture_ms += milliseconds;
+    }
+}
+
+/// Speed of the fastest rigid body of all ragdolls.
+fn fastest(simulation: &Simulation) -> f32 {
+    let ragdolls = simulation.actors.iter().filter_map(|a| simulation.deformation.ragdoll(a.handle));
+    let bodies = ragdolls.flat_map(|r| &r.bodies).filter_map(|&body| simulation.physics.bodies.get(body));
+    bodies.map(|body| body.linvel().length()).fold(0.0, f32::max)
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} frames, {:.1} s simulated", self.frames, self.seconds)?;
+        if self.bodies > 0 {
+            let [low, high] = self.volume.unwrap_or([1.0; 2]);
+            write!(
+                f,
+                "; of the body size: depth {:.4} before and {:.5} after cancellation, gap {:.4}; \
+                 {} frames with vertices inside; volume {low:.4} to {high:.4}",
+                self.before, self.after, self.gap, self.frames_inside
+            )?;
+            match self.still_since {
+                Some(since) if self.seconds - since >= STILL_TIME => write!(f, "; at rest since {since:.1} s")?,
+                _ => write!(f, "; not at rest ({:.2} m/s)", self.speed)?,
+            }
+        }
+        let [rigid, springs, contact, deform, measure] = self.stages.map(|sum| sum / self.frames.max(1) as f32);
+        write!(
+            f,
+            "; ms a frame: rigid {rigid:.2}, springs {springs:.2}, contact {contact:.2}, deform {deform:.2}, \
+             measure {measure:.2}"
+        )?;
+        if self.pictures > 0 {
+            write!(f, "; {} pictures of {:.0} ms", self.pictures, self.picture_ms / self.pictures as f32)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,43 @@
+//! The surfaces of obstacles: crisp, with edges a little rounded so that they catch the light.
+
+use crate::render::{MeshData, shapes};
+use crate::scene::ObstacleShape;
+use crate::simulation::ObstacleBody;
+
+use super::creases::creased;
+
+/// Radius of a rounded edge in metres, and at most this share of the shape's smallest side.
+const BEVEL: f32 = 0.015;
+const BEVEL_SHARE: f32 = 0.15;
+
+/// The surface of an obstacle in its own frame.
+pub fn surface(obstacle: &ObstacleBody) -> MeshData {
+    let bevel = |side: f32| BEVEL.min(BEVEL_SHARE * side);
+    match &obstacle.obstacle.shape {
+        ObstacleShape::Ball { radius } => shapes::ball(*radius),
+        ObstacleShape::Cuboid { half_extents } => shapes::cuboid(*half_extents, bevel(half_extents.min_element())),
+        ObstacleShape::Capsule { half_height, radius } => shapes::capsule(*half_height, *radius),
+        ObstacleShape::Cylinder { half_height, radius } => {
+            shapes::cylinder(*half_height, *radius, bevel(half_height.min(*radius)))
+        }
+        ObstacleShape::Cone { .. } => parts(obstacle),
+        ObstacleShape::Mesh { .. } => match &obstacle.mesh {
+            Some(mesh) => creased(&mesh.positions, &mesh.triangles),
+            None => parts(obstacle),
+        },
+    }
+}
+
+/// The convex parts as they are.
+fn parts(obstacle: &ObstacleBody) -> MeshData {
+    let mut all = MeshData::default();
+    for part in &obstacle.parts {
+        let placed: Vec<_> = part.positions.iter().map(|p| part.pose.transform_point(*p)).collect();
+        let mesh = creased(&placed, &part.triangles);
+        let first = all.positions.len() as u32;
+        all.positions.extend(mesh.positions);
+        all.normals.extend(mesh.normals);
+        all.indices.extend(mesh.indices.iter().map(|i| i + first));
+    }
+    all
+}

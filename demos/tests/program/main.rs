@@ -1,0 +1,7 @@
+//! The program as a whole: what it writes, what it refuses, and how it says so.
+
+mod bad_input;
+mod common;
+mod headless;
+mod pictures;
+mod threads;
