@@ -1,0 +1,273 @@
+//! What a frame of the tower costs, stage by stage, and what the alternatives cost beside each other.
+//!
+//! A table of one whole fall is printed first, then a table of ratios whose members were measured in turns in the same
+//! run; criterion then repeats the figures that are worth following from run to run.
+#![allow(clippy::print_stdout, reason = "the tables are what it is for")]
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+use criterion::{Criterion, SamplingMode};
+use pliant::elastic::{ElasticBody, tangent_epsilon};
+use pliant::field::Integrator;
+use pliant::math::Vec3;
+use pliant::mesh::NormalTopology;
+use pliant_demos::scene::{find_scene, load_scene};
+use pliant_demos::simulation::Simulation;
+use rayon::prelude::*;
+
+/// Frames of one fall.
+const FRAMES: u64 = 600;
+
+/// A snapshot of the camel is kept every so many frames.
+const EVERY: u64 = 20;
+
+/// Rounds over all snapshots in the table of ratios.
+const ROUNDS: u32 = 5;
+
+fn tower(max_passes: Option<u32>) -> Result<Simulation> {
+    let mut simulation = Simulation::new(load_scene(find_scene("tower")?)?, 0)?;
+    simulation.deformation.settings.measure = false;
+    if let Some(passes) = max_passes {
+        simulation.deformation.settings.cancel.max_passes = passes;
+    }
+    Ok(simulation)
+}
+
+/// Milliseconds of each stage in each frame of a fall.
+struct Fall {
+    rigid: Vec<f32>,
+    springs: Vec<f32>,
+    contact: Vec<f32>,
+    deform: Vec<f32>,
+    step: Vec<f32>,
+    bodies: Vec<ElasticBody>,
+}
+
+fn fall(mut simulation: Simulation) -> Fall {
+    let mut fall = Fall {
+        rigid: Vec::new(),
+        springs: Vec::new(),
+        contact: Vec::new(),
+        deform: Vec::new(),
+        step: Vec::new(),
+        bodies: Vec::new(),
+    };
+    for frame in 0..FRAMES {
+        simulation.step();
+        let times = simulation.times();
+        fall.rigid.push(simulation.rigid_ms);
+        fall.springs.push(times.springs);
+        fall.contact.push(times.contact);
+        fall.deform.push(times.deform);
+        fall.step.push(times.springs + times.contact + times.deform);
+        if frame % EVERY == 0 {
+            fall.bodies.extend(simulation.deformation.iter().map(|(_, body)| body.clone()));
+        }
+    }
+    fall
+}
+
+fn mean(times: &[f32]) -> f32 {
+    times.iter().sum::<f32>() / times.len().max(1) as f32
+}
+
+fn row(name: &str, times: &[f32]) {
+    let mut sorted = times.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    let at = |part: usize| sorted.get((sorted.len() * part / 100).min(sorted.len() - 1)).copied().unwrap_or(0.0);
+    println!("{name:<34} {:8.3} {:8.3} {:8.3} {:8.3}", mean(times), at(50), at(95), at(100));
+}
+
+fn print_fall(whole: &Fall, uncancelled: &Fall) {
+    println!("\ntower, {FRAMES} frames, ms a frame         mean   median     95 %    worst");
+    row("mass-spring sets", &whole.springs);
+    row("contacts and repelling impulses", &uncancelled.contact);
+    row("contacts, impulses, cancellation", &whole.contact);
+    row("deformation by the springs", &whole.deform);
+    row("all of pliant", &whole.step);
+    row("rapier", &whole.rigid);
+    println!("cancellation alone, mean {:.3} ms (the difference)", mean(&whole.contact) - mean(&uncancelled.contact));
+}
+
+/// The camel at some moments of the fall in all variants that are compared.
+struct Moments {
+    rigid: Vec<ElasticBody>,
+    euler: Vec<ElasticBody>,
+    midpoint: Vec<ElasticBody>,
+    runge_kutta: Vec<ElasticBody>,
+    whole: Vec<ElasticBody>,
+    topology: NormalTopology,
+    epsilon: f32,
+}
+
+impl Moments {
+    fn new(whole: Vec<ElasticBody>) -> Result<Self> {
+        let with = |integrator: Integrator, enabled: bool| {
+            let changed = |body: &ElasticBody| {
+                let mut body = body.clone();
+                body.settings.integrator = integrator;
+                body.settings.enabled = enabled;
+                body.build_palette();
+                body
+            };
+            whole.iter().map(changed).collect()
+        };
+        let mesh = &whole[0].rig().mesh;
+        Ok(Self {
+            rigid: with(Integrator::Midpoint, false),
+            euler: with(Integrator::Euler, true),
+            midpoint: with(Integrator::Midpoint, true),
+            runge_kutta: with(Integrator::RungeKutta4, true),
+            topology: NormalTopology::new(&mesh.triangles, &mesh.welded)?,
+            epsilon: tangent_epsilon(&mesh.positions),
+            whole,
+        })
+    }
+
+    /// Springs and all collision passes of the frame, without normals.
+    fn deform(&self) {
+        for body in &self.whole {
+            let rig = body.rig();
+            let deformed: Vec<Vec3> = (0..rig.mesh.positions.len())
+                .into_par_iter()
+                .with_min_len(256)
+                .map(|v| body.palette().deform(rig.mesh.positions[v], &rig.weights[v]))
+                .collect();
+            black_box(deformed);
+        }
+    }
+
+    /// The same, then the normals of the triangles.
+    fn deform_then_triangle_normals(&self) {
+        let (mut areas, mut normals) = (Vec::new(), Vec::new());
+        for body in &self.whole {
+            let rig = body.rig();
+            let deformed: Vec<Vec3> = (0..rig.mesh.positions.len())
+                .into_par_iter()
+                .with_min_len(256)
+                .map(|v| body.palette().deform(rig.mesh.positions[v], &rig.weights[v]))
+                .collect();
+            let _ = black_box(self.topology.normals_into(&deformed, &mut areas, &mut normals));
+        }
+    }
+
+    /// The same with the normals of two tangent points, which need no neighbours.
+    fn deform_with_tangent_normals(&self) {
+        for body in &self.whole {
+            let rig = body.rig();
+            let deformed: Vec<(Vec3, Vec3)> = (0..rig.mesh.positions.len())
+                .into_par_iter()
+                .with_min_len(256)
+                .map(|v| {
+                    let (x, n) = (rig.mesh.positions[v], rig.mesh.normals[v]);
+                    body.palette().deform_with_normal(x, n, &rig.weights[v], self.epsilon)
+                })
+                .collect();
+            black_box(deformed);
+        }
+    }
+
+    fn count(&self) -> u32 {
+        self.whole.len() as u32
+    }
+}
+
+fn springs(bodies: &mut [ElasticBody]) {
+    for body in bodies {
+        body.deform_springs();
+        black_box(body.positions());
+    }
+}
+
+fn timed(work: impl FnOnce()) -> Duration {
+    let clock = Instant::now();
+    work();
+    clock.elapsed()
+}
+
+fn print_ratios(moments: &mut Moments) {
+    let mut sums = [Duration::ZERO; 7];
+    for _ in 0..ROUNDS {
+        sums[0] += timed(|| springs(&mut moments.rigid));
+        sums[1] += timed(|| springs(&mut moments.euler));
+        sums[2] += timed(|| springs(&mut moments.midpoint));
+        sums[3] += timed(|| springs(&mut moments.runge_kutta));
+        sums[4] += timed(|| moments.deform());
+        sums[5] += timed(|| moments.deform_then_triangle_normals());
+        sums[6] += timed(|| moments.deform_with_tangent_normals());
+    }
+    let names = [
+        "rigid skinning alone",
+        "springs, Euler, 12 steps",
+        "springs, midpoint, 6 steps",
+        "springs, Runge-Kutta, 4 steps",
+        "springs and collision passes",
+        "  the same and triangle normals",
+        "  the same with tangent normals",
+    ];
+    println!("\nthe skin alone, {} moments of the fall      ms   ratio", moments.count());
+    for (name, sum) in names.iter().zip(sums) {
+        let ms = sum.as_secs_f64() * 1.0e3 / f64::from(moments.count() * ROUNDS);
+        println!("{name:<38} {ms:8.3} {:7.2}", sum.as_secs_f64() / sums[0].as_secs_f64());
+    }
+    println!();
+}
+
+/// One iteration is one frame; the fall goes on from sample to sample and starts again at its end.
+fn frames(criterion: &mut Criterion) -> Result<()> {
+    let mut simulation = tower(None)?;
+    let mut group = criterion.benchmark_group("tower");
+    group.sample_size(10).sampling_mode(SamplingMode::Flat).measurement_time(Duration::from_secs(5));
+    group.bench_function("frame", |bencher| {
+        bencher.iter_custom(|iterations| {
+            let mut sum = Duration::ZERO;
+            for _ in 0..iterations {
+                if simulation.frame >= FRAMES
+                    && let Ok(again) = tower(None)
+                {
+                    simulation = again;
+                }
+                simulation.physics.step();
+                sum += timed(|| {
+                    simulation.deformation.step(&mut simulation.physics);
+                });
+                simulation.frame += 1;
+            }
+            sum
+        });
+    });
+    group.finish();
+    Ok(())
+}
+
+fn skins(criterion: &mut Criterion, moments: &mut Moments) {
+    let each = moments.count();
+    let mut group = criterion.benchmark_group("skin");
+    group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
+    for (name, bodies) in [
+        ("rigid", &mut moments.rigid),
+        ("springs-euler", &mut moments.euler),
+        ("springs-midpoint", &mut moments.midpoint),
+        ("springs-runge-kutta", &mut moments.runge_kutta),
+    ] {
+        group.bench_function(name, |bencher| {
+            bencher.iter_custom(|n| (0..n).map(|_| timed(|| springs(bodies)) / each).sum());
+        });
+    }
+    group.finish();
+}
+
+fn main() -> Result<()> {
+    let mut criterion = Criterion::default().configure_from_args();
+    let whole = fall(tower(None)?);
+    let uncancelled = fall(tower(Some(0))?);
+    print_fall(&whole, &uncancelled);
+    let mut moments = Moments::new(whole.bodies)?;
+    print_ratios(&mut moments);
+    frames(&mut criterion)?;
+    skins(&mut criterion, &mut moments);
+    criterion.final_summary();
+    Ok(())
+}
