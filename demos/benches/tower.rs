@@ -23,8 +23,12 @@ const FRAMES: u64 = 600;
 /// A snapshot of the camel is kept every so many frames.
 const EVERY: u64 = 20;
 
-/// Rounds over all snapshots in the table of ratios.
-const ROUNDS: u32 = 5;
+/// Falls of the first table. All are the same; each frame counts with its quickest, so that other work of the machine
+/// does not look like a slow frame.
+const FALLS: usize = 3;
+
+/// Rounds over all snapshots in the table of ratios; the quickest counts.
+const ROUNDS: u32 = 7;
 
 fn tower(max_passes: Option<u32>) -> Result<Simulation> {
     let mut simulation = Simulation::new(load_scene(find_scene("tower")?)?, 0)?;
@@ -36,6 +40,7 @@ fn tower(max_passes: Option<u32>) -> Result<Simulation> {
 }
 
 /// Milliseconds of each stage in each frame of a fall.
+#[derive(Default)]
 struct Fall {
     rigid: Vec<f32>,
     springs: Vec<f32>,
@@ -45,15 +50,25 @@ struct Fall {
     bodies: Vec<ElasticBody>,
 }
 
-fn fall(mut simulation: Simulation) -> Fall {
-    let mut fall = Fall {
-        rigid: Vec::new(),
-        springs: Vec::new(),
-        contact: Vec::new(),
-        deform: Vec::new(),
-        step: Vec::new(),
-        bodies: Vec::new(),
-    };
+fn fall(max_passes: Option<u32>) -> Result<Fall> {
+    let mut quickest = one_fall(tower(max_passes)?);
+    for _ in 1..FALLS {
+        let again = one_fall(tower(max_passes)?);
+        for (times, others) in [
+            (&mut quickest.rigid, again.rigid),
+            (&mut quickest.springs, again.springs),
+            (&mut quickest.contact, again.contact),
+            (&mut quickest.deform, again.deform),
+            (&mut quickest.step, again.step),
+        ] {
+            times.iter_mut().zip(others).for_each(|(time, other)| *time = time.min(other));
+        }
+    }
+    Ok(quickest)
+}
+
+fn one_fall(mut simulation: Simulation) -> Fall {
+    let mut fall = Fall::default();
     for frame in 0..FRAMES {
         simulation.step();
         let times = simulation.times();
@@ -188,15 +203,18 @@ fn timed(work: impl FnOnce()) -> Duration {
 }
 
 fn print_ratios(moments: &mut Moments) {
-    let mut sums = [Duration::ZERO; 7];
+    let mut quickest = [Duration::MAX; 7];
     for _ in 0..ROUNDS {
-        sums[0] += timed(|| springs(&mut moments.rigid));
-        sums[1] += timed(|| springs(&mut moments.euler));
-        sums[2] += timed(|| springs(&mut moments.midpoint));
-        sums[3] += timed(|| springs(&mut moments.runge_kutta));
-        sums[4] += timed(|| moments.deform());
-        sums[5] += timed(|| moments.deform_then_triangle_normals());
-        sums[6] += timed(|| moments.deform_with_tangent_normals());
+        let times = [
+            timed(|| springs(&mut moments.rigid)),
+            timed(|| springs(&mut moments.euler)),
+            timed(|| springs(&mut moments.midpoint)),
+            timed(|| springs(&mut moments.runge_kutta)),
+            timed(|| moments.deform()),
+            timed(|| moments.deform_then_triangle_normals()),
+            timed(|| moments.deform_with_tangent_normals()),
+        ];
+        quickest.iter_mut().zip(times).for_each(|(best, time)| *best = time.min(*best));
     }
     let names = [
         "rigid skinning alone",
@@ -208,9 +226,9 @@ fn print_ratios(moments: &mut Moments) {
         "  the same with tangent normals",
     ];
     println!("\nthe skin alone, {} moments of the fall      ms   ratio", moments.count());
-    for (name, sum) in names.iter().zip(sums) {
-        let ms = sum.as_secs_f64() * 1.0e3 / f64::from(moments.count() * ROUNDS);
-        println!("{name:<38} {ms:8.3} {:7.2}", sum.as_secs_f64() / sums[0].as_secs_f64());
+    for (name, time) in names.iter().zip(quickest) {
+        let ms = time.as_secs_f64() * 1.0e3 / f64::from(moments.count());
+        println!("{name:<38} {ms:8.3} {:7.2}", time.as_secs_f64() / quickest[0].as_secs_f64());
     }
     println!();
 }
@@ -245,7 +263,11 @@ fn frames(criterion: &mut Criterion) -> Result<()> {
 fn skins(criterion: &mut Criterion, moments: &mut Moments) {
     let each = moments.count();
     let mut group = criterion.benchmark_group("skin");
-    group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
+    group
+        .sample_size(10)
+        .sampling_mode(SamplingMode::Flat)
+        .warm_up_time(Duration::from_millis(500))
+        .measurement_time(Duration::from_secs(2));
     for (name, bodies) in [
         ("rigid", &mut moments.rigid),
         ("springs-euler", &mut moments.euler),
@@ -261,8 +283,8 @@ fn skins(criterion: &mut Criterion, moments: &mut Moments) {
 
 fn main() -> Result<()> {
     let mut criterion = Criterion::default().configure_from_args();
-    let whole = fall(tower(None)?);
-    let uncancelled = fall(tower(Some(0))?);
+    let whole = fall(None)?;
+    let uncancelled = fall(Some(0))?;
     print_fall(&whole, &uncancelled);
     let mut moments = Moments::new(whole.bodies)?;
     print_ratios(&mut moments);
