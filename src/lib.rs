@@ -17,3 +17,8 @@ pub mod math;
 pub mod mesh;
 pub mod spring;
 pub mod world;
+
+/// The README's code is compiled and run with the documentation's tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
