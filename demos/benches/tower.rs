@@ -47,6 +47,7 @@ struct Fall {
     contact: Vec<f32>,
     deform: Vec<f32>,
     step: Vec<f32>,
+    passes: Vec<u32>,
     bodies: Vec<ElasticBody>,
 }
 
@@ -77,6 +78,7 @@ fn one_fall(mut simulation: Simulation) -> Fall {
         fall.contact.push(times.contact);
         fall.deform.push(times.deform);
         fall.step.push(times.springs + times.contact + times.deform);
+        fall.passes.push(simulation.actors.iter().map(|actor| simulation.report(actor).passes).max().unwrap_or(0));
         if frame % EVERY == 0 {
             fall.bodies.extend(simulation.deformation.iter().map(|(_, body)| body.clone()));
         }
@@ -101,8 +103,15 @@ fn print_fall(whole: &Fall, uncancelled: &Fall) {
     row("contacts and repelling impulses", &uncancelled.contact);
     row("contacts, impulses, cancellation", &whole.contact);
     row("deformation by the springs", &whole.deform);
-    row("all of pliant", &whole.step);
     row("rapier", &whole.rigid);
+    row("all of pliant", &whole.step);
+    for passes in 0..=whole.passes.iter().copied().max().unwrap_or(0) {
+        let frames = whole.step.iter().zip(&whole.passes).filter(|&(_, &p)| p == passes);
+        let times: Vec<f32> = frames.map(|(&time, _)| time).collect();
+        if !times.is_empty() {
+            row(&format!("  {} frames of {passes} passes", times.len()), &times);
+        }
+    }
     println!("cancellation alone, mean {:.3} ms (the difference)", mean(&whole.contact) - mean(&uncancelled.contact));
 }
 
