@@ -19,3 +19,8 @@ pub mod spring;
 #[cfg(feature = "ui")]
 pub mod ui;
 pub mod world;
+
+/// The README's code is compiled and run with the documentation's tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
