@@ -3,7 +3,7 @@
 /// Finds `x ≥ 0` with `A x ≥ b` and `x` zero where `A x > b`, as near as the sweeps get.
 ///
 /// `a` is row-major, `n × n`; `a[i][j]` is how far field `j` of unit strength moves contact `i` out. `x` holds the
-/// start and the result. Rows with a weak diagonal are solved as if it were [`LEAST_DIAGONAL`].
+/// start and the result. Rows with a weak diagonal are solved as if it were `LEAST_DIAGONAL`.
 pub fn complementarity(a: &[f32], b: &[f32], x: &mut [f32]) {
     let n = b.len();
     for _ in 0..SWEEPS {

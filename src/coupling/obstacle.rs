@@ -143,15 +143,17 @@ impl ObstaclePart {
 /// Convex parts by collider, kept as long as a collider keeps its shape: a cache, nothing more.
 #[derive(Default)]
 pub struct PartCache {
-    known: HashMap<ColliderHandle, (SharedShape, Result<Arc<[LocalPart]>, ObstacleError>)>,
+    known: HashMap<ColliderHandle, (SharedShape, KnownParts)>,
 }
+
+type KnownParts = Result<Arc<[LocalPart]>, ObstacleError>;
 
 impl PartCache {
     /// The convex parts of a collider.
     ///
     /// # Errors
     /// The same [`ObstacleError`] each time for a collider that has none.
-    pub fn parts(&mut self, handle: ColliderHandle, collider: &Collider) -> Result<Arc<[LocalPart]>, ObstacleError> {
+    pub fn parts(&mut self, handle: ColliderHandle, collider: &Collider) -> KnownParts {
         let shape = collider.shared_shape();
         match self.known.get(&handle) {
             Some((known, parts)) if Arc::ptr_eq(&known.0, &shape.0) => parts.clone(),

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::body_normals::{BodyNormals, Normals};
 use super::palette::{Palette, SegmentEntry, SpringStage};
 use super::rest::SegmentSkin;
 use super::rig::{ElasticRig, MAX_INFLUENCES};
@@ -25,6 +26,8 @@ pub struct DeformSettings {
     pub displacement_limit: f32,
     /// Viewer and threshold of the level of detail: a set is used only if `r_o > threshold · distance` (section 3.6).
     pub level_of_detail: Option<LevelOfDetail>,
+    /// How the normals are found.
+    pub normals: Normals,
     /// False: the skin follows the rigid bodies alone.
     pub enabled: bool,
 }
@@ -37,6 +40,7 @@ impl Default for DeformSettings {
             gravity: Vec3::ZERO,
             displacement_limit: 0.5,
             level_of_detail: None,
+            normals: Normals::Triangles,
             enabled: true,
         }
     }
@@ -67,6 +71,7 @@ pub struct ElasticBody {
     sets: Vec<MassSpringSet>,
     palette: Palette,
     positions: Vec<Vec3>,
+    normals: BodyNormals,
     order: Arc<SkinOrder>,
     /// Scratch for the results of batches.
     moved: Vec<[Vec3; LANES]>,
@@ -83,6 +88,7 @@ impl ElasticBody {
         let positions = rig.mesh.positions.clone();
         let order = Arc::new(SkinOrder::new(&rig.weights, rig.segments.len()));
         let mut body = Self {
+            normals: BodyNormals::new(&rig),
             order,
             moved: Vec::new(),
             rig,
@@ -130,6 +136,16 @@ impl ElasticBody {
     /// Deformed position of each vertex.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
+    }
+
+    /// Unit normal of each vertex, as [`DeformSettings::normals`] asks for.
+    pub fn normals(&self) -> &[Vec3] {
+        &self.normals.normals
+    }
+
+    /// Renews the normals from the deformed skin.
+    pub fn renew_normals(&mut self) {
+        self.normals.renew(self.settings.normals, &self.rig, &self.palette, &self.positions);
     }
 
     /// Moves the segments without moving the sets: for the first frame and for teleports.

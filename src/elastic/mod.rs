@@ -1,6 +1,7 @@
 //! Elastic bodies: shared rest data and the deformation of the skin.
 
 mod body;
+mod body_normals;
 mod deform;
 mod deform_wide;
 mod palette;
@@ -18,6 +19,7 @@ mod weight_regions;
 mod weights;
 
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
+pub use body_normals::Normals;
 pub use palette::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SpringStage};
 pub use rest::{SegmentSkin, SkinSample};
 pub use rig::{

@@ -6,7 +6,7 @@ use crate::math::Vec3;
 /// The part of the skin that one segment moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentSkin {
-    /// Vertices whose weight for the segment is at least [`MEMBER_WEIGHT`].
+    /// Vertices whose weight for the segment is at least `MEMBER_WEIGHT` (a quarter).
     pub vertices: Vec<u32>,
     /// Largest distance of these vertices from their mean: the paper's measure of the size of a body (section 4.2).
     pub size: f32,

@@ -105,7 +105,10 @@ pub struct ContactSettings {
 }
 
 /// Everything about an elastic body that its copies share.
+///
+/// Made by [`super::ElasticRigBuilder`] or [`super::load_rig`], which check that all indices and numbers are in range.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ElasticRig {
     /// The skin at rest.
     pub mesh: TriangleMesh,

@@ -119,6 +119,7 @@ impl DeformationWorld {
         body.place(&motions);
         body.build_palette();
         body.deform_springs();
+        body.renew_normals();
         self.add(body, ragdoll, start.groups)
     }
 

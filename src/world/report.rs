@@ -38,7 +38,7 @@ pub struct StageTimes {
     pub springs: f32,
     /// Finding contacts, repelling impulses and cancellation.
     pub contact: f32,
-    /// Deforming the skin by the spring fields.
+    /// Deforming the skin by the spring fields, and its normals.
     pub deform: f32,
     /// Measuring depths, gaps and volumes.
     pub measure: f32,

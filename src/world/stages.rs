@@ -51,6 +51,10 @@ impl DeformationWorld {
         report.times.contact += lap(clock);
 
         let clock = Instant::now();
+        self.renew_normals(&encounters);
+        report.times.deform += lap(clock);
+
+        let clock = Instant::now();
         self.write_report(&mut encounters, &mut report);
         report.times.measure = lap(clock);
         self.report = report;
@@ -138,6 +142,15 @@ impl DeformationWorld {
             if entry.body.settings.enabled {
                 let settings = &self.settings.cancel;
                 encounter.cancelled = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
+            }
+        }
+    }
+
+    /// Normals of the skin as it is drawn.
+    fn renew_normals(&mut self, encounters: &[Encounter]) {
+        for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
+            if let Some(entry) = self.entries.get_mut(encounter.handle.0) {
+                entry.body.renew_normals();
             }
         }
     }

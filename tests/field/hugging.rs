@@ -29,12 +29,12 @@ fn nothing_that_starts_outside_the_shifted_part_ends_inside_the_part() {
                     continue;
                 }
                 let end = path_line(x, integrator, steps, |x, t| field.velocity(x, t));
-                assert!(field.part.distance(end).0 > 0.0, "{x} started {start} outside of {:?}", field.part.part);
+                assert!(field.part.distance(end).0 > 0.0, "{x} started {start} outside of {:?}", field.part.part());
                 pushed += u32::from(start < field.width);
                 swept += u32::from(field.part.distance(x).0 == 0.0);
             }
         }
-        assert!(pushed > 100, "{pushed} points near {:?}", field.part.part);
+        assert!(pushed > 100, "{pushed} points near {:?}", field.part.part());
         swept_by_all += swept;
     }
     assert!(swept_by_all > 1000, "{swept_by_all} points were in the way of a part");

@@ -83,14 +83,14 @@ pub fn sphere(rng: &mut Rng) -> Sample {
 pub fn hugging_field(rng: &mut Rng, kind: usize) -> HuggingField {
     let part = PlacedPart::new(part(rng, kind), pose(rng, 1.0));
     let width = between(rng, 0.7, 2.0);
-    let gauge = part.pose.translation + in_cube(rng, 0.7);
+    let gauge = part.pose().translation + in_cube(rng, 0.7);
     HuggingField { part, d: direction(rng) * between(rng, 0.1, 1.0), gauge, width, extent: 1.5 }
 }
 
 pub fn hugging(rng: &mut Rng, kind: usize) -> Sample {
     let field = hugging_field(rng, kind);
     let HuggingField { width, gauge, extent, .. } = field;
-    let ConvexPart { shape, rounding } = &field.part.part;
+    let ConvexPart { shape, rounding } = field.part.part();
     let kinks = !matches!(shape, PartShape::Point | PartShape::HalfSpace { .. });
     Sample {
         name: format!("{shape:?} rounded by {rounding}, width {width}"),

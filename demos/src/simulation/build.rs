@@ -12,7 +12,7 @@ use pliant::world::DeformationWorld;
 use rapier3d::pipeline::PhysicsWorld;
 
 use super::obstacle::ObstacleBody;
-use super::simulation::Actor;
+use super::running::Actor;
 use crate::scene::Scene;
 
 /// Why a scene does not come to life.

@@ -5,7 +5,7 @@ use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::parry::query::{Ray, RayCast};
 use rapier3d::parry::shape::Triangle;
 
-use super::simulation::Simulation;
+use super::running::Simulation;
 
 /// Where a ray meets a skin.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 mod build;
 mod grab;
 mod obstacle;
-mod simulation;
+mod running;
 
 pub use build::BuildError;
 pub use grab::Hit;
 pub use obstacle::{ObstacleBody, ShownPart};
-pub use simulation::{Actor, Simulation};
+pub use running::{Actor, Simulation};

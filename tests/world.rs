@@ -1,0 +1,231 @@
+//! The deformation world: frozen bodies, level of detail, thread counts, ragdolls that return to their rest pose.
+
+mod common;
+
+use std::sync::Arc;
+
+use common::ball_rig;
+use pliant::coupling::{Ragdoll, RagdollStart, convex_parts, decompose};
+use pliant::elastic::{
+    ElasticRig, ElasticRigBuilder, Joint, LevelOfDetail, Normals, Segment, SegmentMass, SegmentShape,
+};
+use pliant::math::{Pose, Vec3};
+use pliant::mesh::TriangleMesh;
+use pliant::spring::SpringCoefficients;
+use pliant::world::{BodyReport, DeformationWorld, ElasticBodyHandle, Frozen, InsertError};
+use rapier3d::dynamics::RigidBodyBuilder;
+use rapier3d::geometry::{ColliderBuilder, InteractionGroups};
+use rapier3d::pipeline::PhysicsWorld;
+
+const CONTACT: SpringCoefficients = SpringCoefficients::new(3.0, 0.2);
+
+fn ball_above_a_floor() -> (PhysicsWorld, DeformationWorld, ElasticBodyHandle) {
+    let mut physics = PhysicsWorld::new();
+    let floor = physics.insert_body(RigidBodyBuilder::fixed().translation(Vec3::new(0.0, -1.0, 0.0)));
+    physics.insert_collider(ColliderBuilder::cuboid(50.0, 1.0, 50.0), Some(floor));
+    let mut deformation = DeformationWorld::new();
+    let start = RagdollStart { pose: Pose::from_translation(Vec3::new(0.0, 0.6, 0.0)), ..RagdollStart::default() };
+    let ball = deformation.insert(ball_rig(0.5, 1.2, CONTACT), &start, &mut physics);
+    (physics, deformation, ball)
+}
+
+fn step(physics: &mut PhysicsWorld, deformation: &mut DeformationWorld, ball: ElasticBodyHandle) -> BodyReport {
+    physics.step();
+    *deformation.step(physics).body(ball).expect("the ball is in the report")
+}
+
+#[test]
+fn a_body_whose_parent_was_removed_stays_as_it_is_and_is_reported() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    for _ in 0..20 {
+        assert_eq!(step(&mut physics, &mut deformation, ball).frozen, None);
+    }
+    let before = deformation.get(ball).expect("a body").positions().to_vec();
+    physics.remove_body(deformation.ragdoll(ball).expect("a ragdoll").bodies[0]);
+    for _ in 0..20 {
+        assert_eq!(step(&mut physics, &mut deformation, ball).frozen, Some(Frozen::ParentRemoved));
+    }
+    assert_eq!(deformation.get(ball).expect("a body").positions(), before);
+}
+
+#[test]
+fn a_disabled_body_is_frozen_until_it_is_enabled_again() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    let rigid = deformation.ragdoll(ball).expect("a ragdoll").bodies[0];
+    physics.bodies[rigid].set_enabled(false);
+    assert_eq!(step(&mut physics, &mut deformation, ball).frozen, Some(Frozen::ParentDisabled));
+    physics.bodies[rigid].set_enabled(true);
+    assert_eq!(step(&mut physics, &mut deformation, ball).frozen, None);
+}
+
+#[test]
+fn a_pose_that_is_not_finite_freezes_the_body_and_leaves_its_skin_finite() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    step(&mut physics, &mut deformation, ball);
+    let rigid = deformation.ragdoll(ball).expect("a ragdoll").bodies[0];
+    physics.bodies[rigid].set_translation(Vec3::new(f32::NAN, 0.0, 0.0), true);
+    // Without a step of rapier, which would put such a body aside by itself.
+    let report = *deformation.step(&mut physics).body(ball).expect("the ball is in the report");
+    assert_eq!(report.frozen, Some(Frozen::NotFinite));
+    assert!(deformation.get(ball).expect("a body").positions().iter().all(|x| x.is_finite()));
+}
+
+#[test]
+fn a_body_that_teleports_keeps_a_finite_skin_and_its_volume() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    let rigid = deformation.ragdoll(ball).expect("a ragdoll").bodies[0];
+    for i in 0..30 {
+        physics.bodies[rigid].set_translation(Vec3::new(1000.0 * (i % 2) as f32, 5.0, 0.0), true);
+        let report = step(&mut physics, &mut deformation, ball);
+        assert_eq!(report.frozen, None);
+        // Half the radius of influence is a large displacement: its exact flow drifts by as much (see the design).
+        assert!((report.volume_ratio - 1.0).abs() < 2e-3, "{}", report.volume_ratio);
+    }
+}
+
+#[test]
+fn a_removed_body_is_gone_and_its_rigid_bodies_stay() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    let ragdoll = deformation.remove(ball).expect("it was there");
+    assert!(physics.bodies.contains(ragdoll.bodies[0]));
+    assert!(deformation.get(ball).is_none() && deformation.remove(ball).is_none());
+    physics.step();
+    assert!(deformation.step(&mut physics).bodies.is_empty());
+}
+
+#[test]
+fn attaching_another_number_of_rigid_bodies_than_segments_is_refused() {
+    let mut deformation = DeformationWorld::new();
+    let result = deformation.attach(ball_rig(0.5, 1.2, CONTACT), Ragdoll::default(), InteractionGroups::all());
+    assert_eq!(result, Err(InsertError::BodyCount { segments: 1, bodies: 0 }));
+}
+
+#[test]
+fn a_set_too_small_for_its_distance_is_left_out() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    let fields = |deformation: &DeformationWorld| {
+        let palette = deformation.get(ball).expect("a body").palette();
+        palette.segments.iter().map(|s| s.local.fields.len() + s.global.fields.len()).sum::<usize>()
+    };
+    for (threshold, expected) in [(0.01, 1), (0.2, 0)] {
+        deformation.get_mut(ball).expect("a body").settings.level_of_detail =
+            Some(LevelOfDetail { viewer: Vec3::new(0.0, 0.5, 10.0), threshold });
+        step(&mut physics, &mut deformation, ball);
+        assert_eq!(fields(&deformation), expected, "threshold {threshold}");
+    }
+}
+
+#[test]
+fn both_kinds_of_normals_agree_on_a_squashed_ball() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    for _ in 0..15 {
+        step(&mut physics, &mut deformation, ball);
+    }
+    let body = deformation.get_mut(ball).expect("a body");
+    let triangles = body.normals().to_vec();
+    body.settings.normals = Normals::TangentPoints;
+    body.renew_normals();
+    let worst = triangles.iter().zip(body.normals()).map(|(a, b)| a.dot(*b)).fold(1.0, f32::min);
+    // Facets of 4 degrees: the two differ by less than one facet.
+    assert!(worst > 0.995, "{worst}");
+}
+
+#[test]
+fn the_same_bits_come_out_for_any_number_of_threads() {
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| {
+            let (mut physics, mut deformation, ball) = ball_above_a_floor();
+            for _ in 0..60 {
+                step(&mut physics, &mut deformation, ball);
+            }
+            let body = deformation.get(ball).expect("a body");
+            (body.positions().to_vec(), body.normals().to_vec())
+        })
+    };
+    let one = run(1);
+    assert_eq!(one, run(2));
+    assert_eq!(one, run(4));
+}
+
+/// Two boxes in one closed skin, joined by an elastic joint.
+fn two_segments() -> Arc<ElasticRig> {
+    let (points, triangles) = common::icosphere::icosphere(3);
+    let stretched = points.into_iter().map(|p| p * Vec3::new(1.0, 0.2, 0.2)).collect();
+    let mut rig = ElasticRigBuilder::new(TriangleMesh::from_triangles(stretched, triangles).expect("a mesh"));
+    let segment = |name: &str, a: f32, b: f32| Segment {
+        name: name.into(),
+        bone: [Vec3::new(a, 0.0, 0.0), Vec3::new(b, 0.0, 0.0)],
+        shape: SegmentShape::Capsule { radius: 0.1 },
+        mass: SegmentMass::Mass(1.0),
+    };
+    let parent = rig.segment(segment("left", -0.9, 0.0));
+    let child = rig.segment(segment("right", 0.0, 0.9));
+    rig.joint(Joint { parent, child, anchor: Vec3::ZERO, limit: Some(1.5), spring: SpringCoefficients::new(2.0, 0.5) });
+    Arc::new(rig.build().expect("a sound rig"))
+}
+
+#[test]
+fn an_elastic_joint_pulls_its_segments_back_to_the_rest_pose() {
+    let mut physics = PhysicsWorld::new();
+    physics.gravity = Vec3::ZERO;
+    let mut deformation = DeformationWorld::new();
+    let handle = deformation.insert(two_segments(), &RagdollStart::default(), &mut physics);
+    let [left, right] = deformation.ragdoll(handle).expect("a ragdoll").bodies[..] else { panic!("two bodies") };
+    let angle = |physics: &PhysicsWorld| {
+        physics.bodies[left].position().rotation.angle_between(physics.bodies[right].position().rotation)
+    };
+    physics.bodies[right].set_angvel(Vec3::new(0.0, 0.0, 6.0), true);
+    physics.bodies[left].set_angvel(Vec3::new(0.0, 0.0, -6.0), true);
+    let mut largest = 0.0_f32;
+    for _ in 0..240 {
+        step(&mut physics, &mut deformation, handle);
+        largest = largest.max(angle(&physics));
+    }
+    assert!(largest > 0.2, "it hardly bent: {largest}");
+    assert!(angle(&physics) < 0.02, "still bent by {}", angle(&physics));
+}
+
+#[test]
+fn a_ball_falls_onto_a_concave_mesh_cut_into_convex_parts_and_ends_outside_of_all_of_them() {
+    // A ring of boxes cannot be one convex part: a bowl made from a coarse torus-like mesh would do, and so does an L.
+    let l = |x: f32, y: f32| [Vec3::new(x, y, -0.6), Vec3::new(x, y, 0.6)];
+    let outline = [(0.0, 0.0), (1.2, 0.0), (1.2, 0.4), (0.4, 0.4), (0.4, 1.2), (0.0, 1.2)];
+    let positions: Vec<Vec3> = outline.iter().flat_map(|&(x, y)| l(x - 0.6, y)).collect();
+    let mut triangles = Vec::new();
+    for i in 0..6_u32 {
+        let (a, b) = (2 * i, 2 * ((i + 1) % 6));
+        triangles.extend([[a, b, a + 1], [b, b + 1, a + 1]]);
+    }
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5_u32]] {
+        triangles.extend([[2 * a + 1, 2 * b + 1, 2 * c + 1], [2 * a, 2 * c, 2 * b]]);
+    }
+    let mesh = TriangleMesh::from_triangles(positions, triangles).expect("an L");
+    let shape = decompose(&mesh, 8);
+    assert!(convex_parts(&shape).expect("parts").len() >= 2);
+    let mut physics = PhysicsWorld::new();
+    let fixed = physics.insert_body(RigidBodyBuilder::fixed());
+    physics.insert_collider(ColliderBuilder::new(shape), Some(fixed));
+    let mut deformation = DeformationWorld::new();
+    let start = RagdollStart { pose: Pose::from_translation(Vec3::new(0.25, 1.2, 0.0)), ..RagdollStart::default() };
+    let ball = deformation.insert(ball_rig(0.3, 1.2, CONTACT), &start, &mut physics);
+    let mut deepest = 0.0_f32;
+    for frame in 0..90 {
+        let report = step(&mut physics, &mut deformation, ball);
+        deepest = deepest.max(report.penetration.max_depth_before);
+        assert_eq!(report.penetration.vertices_inside, 0, "frame {frame}: {report:?}");
+    }
+    assert!(deepest > 0.03, "it never went in: {deepest}");
+}
+
+#[test]
+fn a_collider_without_convex_parts_is_reported_and_ignored() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    let fixed = physics.insert_body(RigidBodyBuilder::fixed());
+    let triangle = vec![Vec3::new(-1.0, 0.2, -1.0), Vec3::new(1.0, 0.2, -1.0), Vec3::new(0.0, 0.2, 1.0)];
+    let mesh = ColliderBuilder::trimesh(triangle, vec![[0, 1, 2]]).expect("a triangle mesh").sensor(false);
+    let collider = physics.insert_collider(mesh, Some(fixed));
+    step(&mut physics, &mut deformation, ball);
+    let refused: Vec<_> = deformation.report().refused.iter().map(|(handle, _)| *handle).collect();
+    assert_eq!(refused, [collider]);
+}
