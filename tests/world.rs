@@ -229,3 +229,41 @@ fn a_collider_without_convex_parts_is_reported_and_ignored() {
     let refused: Vec<_> = deformation.report().refused.iter().map(|(handle, _)| *handle).collect();
     assert_eq!(refused, [collider]);
 }
+
+/// Parry's projection onto convex polyhedra (GJK and EPA) called points outside of VHACD's hulls up to six millimetres
+/// deep; the measured depth comes from their triangles instead.
+#[test]
+fn the_measured_depth_in_a_part_of_a_decomposed_mesh_is_the_height_below_its_nearest_face() {
+    use pliant::coupling::{ObstaclePart, PartId};
+    use pliant::field::PartShape;
+    use rapier3d::geometry::ColliderHandle;
+
+    let (points, triangles) = common::icosphere::icosphere(3);
+    let lumps = points.into_iter().map(|p| p * (0.5 + 0.12 * (7.0 * p.x).sin() * (5.0 * p.y + 1.0).cos())).collect();
+    let mesh = TriangleMesh::from_triangles(lumps, triangles).expect("a mesh");
+    let mut rng = fastrand::Rng::with_seed(11);
+    let mut checked = [0, 0];
+    for local in convex_parts(&decompose(&mesh, 12)).expect("parts") {
+        let PartShape::Hull(hull) = &local.part.shape else { panic!("a hull") };
+        let id = PartId { collider: (0, 0), part: 0 };
+        let part = ObstaclePart::new(id, ColliderHandle::invalid(), &local, Pose::IDENTITY);
+        for _ in 0..2000 {
+            // Close to the surface, on both sides.
+            let [a, b, c] = hull.triangles()[rng.usize(..hull.triangles().len())];
+            let (u, v) = (rng.f32(), rng.f32());
+            let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let normal = (b - a).cross(c - a).normalize_or(Vec3::Y);
+            let x = a + (b - a) * u + (c - a) * v + normal * ((rng.f32() - 0.5) * 0.01);
+            let height = hull.planes().iter().map(|(n, o)| n.dot(x) - o).fold(f32::NEG_INFINITY, f32::max);
+            let depth = part.exact_depth(x);
+            if height > 1e-5 {
+                assert_eq!(depth, 0.0, "{x} is {height} outside");
+                checked[0] += 1;
+            } else if height < -1e-5 {
+                assert!((depth + height).abs() < 2e-4, "{x}: depth {depth}, but {} below the nearest face", -height);
+                checked[1] += 1;
+            }
+        }
+    }
+    assert!(checked.iter().all(|&n| n > 1000), "{checked:?}");
+}

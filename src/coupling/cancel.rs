@@ -45,7 +45,7 @@ impl Default for CancelSettings {
             softness: None,
             depth_tolerance: 5.0e-4,
             gap_tolerance: 2.0e-3,
-            max_passes: 4,
+            max_passes: 8,
             max_rounds: 6,
             max_steps: 24,
             placement: Placement::Hugging,

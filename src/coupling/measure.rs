@@ -63,7 +63,7 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BT
             let part = &parts[p.part];
             let gap = gaps.entry(part.collider.into_raw_parts()).or_insert(f32::INFINITY);
             let x = body.positions()[p.vertex as usize];
-            *gap = gap.min(part.shape.distance_to_point(part.placed.pose(), x, true));
+            *gap = gap.min(part.exact_distance(x));
         }
     }
     gaps

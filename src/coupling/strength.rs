@@ -65,14 +65,15 @@ fn place_fields(body: &ElasticBody, parts: &[ObstaclePart], contacts: &[Contact]
             .map(|(_, other)| (other.point, other.near.normal));
         let gauge = gauge_point(contact.point, others);
         let skin = &body.skins()[usize::from(segment)];
+        let width = softness * skin.size;
         let centre = body.motions()[usize::from(segment)].transform_point(skin.centroid);
         SegmentField {
             segment,
             field: CollisionField::Hugging(HuggingField {
-                part: parts[contact.near.part].placed.clone(),
+                part: parts[contact.near.part].region(width).clone(),
                 d: Vec3::ZERO,
                 gauge,
-                width: softness * skin.size,
+                width,
                 extent: skin.size + centre.distance(gauge),
             }),
         }

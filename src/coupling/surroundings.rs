@@ -10,7 +10,6 @@ use rapier3d::pipeline::QueryPipeline;
 use super::contact::{Proximity, moved_axis, way_out};
 use super::obstacle::{ObstacleError, ObstaclePart, PartCache, PartId};
 use crate::elastic::ElasticBody;
-use crate::field::PlacedPart;
 use crate::math::Vec3;
 
 /// What is remembered of a segment close to a part from one step to the next.
@@ -71,15 +70,9 @@ pub fn obstacles_near(
             Ok(local) => {
                 for (index, local) in local.iter().enumerate() {
                     let pose = *collider.position() * local.pose;
-                    let aabb = local.shape.compute_aabb(&pose);
-                    if pose.is_finite() && aabb.intersects(region) {
-                        parts.push(ObstaclePart {
-                            id: PartId { collider: raw, part: index as u32 },
-                            collider: handle,
-                            placed: PlacedPart::new(local.part.clone(), pose),
-                            shape: local.shape.clone(),
-                            aabb,
-                        });
+                    if pose.is_finite() && local.shape.compute_aabb(&pose).intersects(region) {
+                        let id = PartId { collider: raw, part: index as u32 };
+                        parts.push(ObstaclePart::new(id, handle, local, pose));
                     }
                 }
             }

@@ -190,10 +190,15 @@ fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Froze
     entry.ragdoll.bodies.iter().copied().zip(rest).map(motion).collect()
 }
 
-/// How far the springs may carry the skin beyond the rigid segments.
+/// How far the skin may be carried beyond the rigid segments: by the springs, and by the cancellation out of one
+/// obstacle towards the next.
 fn swing(entry: &Entry) -> f32 {
-    entry.body.sets().iter().map(|set| set.displacement().length()).fold(0.0, f32::max)
+    let springs = entry.body.sets().iter().map(|set| set.displacement().length()).fold(0.0, f32::max);
+    springs + CANCELLED * entry.size
 }
+
+/// The farthest that the cancellation is expected to move the skin, as a fraction of the body's size.
+const CANCELLED: f32 = 0.2;
 
 /// Everything that the skin of a body may touch.
 fn region_of(entry: &Entry) -> Aabb {
@@ -249,7 +254,7 @@ fn foundation_points(
         memory.remember(approach, rapier.dt, period);
         memory.approach
     });
-    let release = release * contact.spring.restitution();
+    let release = if release > RESTING { release * contact.spring.restitution() } else { 0.0 };
     for point in &mut points {
         point.release = release.max(RECOVERY * point.depth / rapier.dt);
     }
@@ -260,6 +265,9 @@ fn foundation_points(
 
 /// A point that is inside an obstacle without any speed is let out by at most this fraction of its depth a step.
 const RECOVERY: f32 = 0.1;
+
+/// What comes in more slowly, in m/s, comes to rest instead of bouncing: a step of gravity is as fast.
+const RESTING: f32 = 0.4;
 
 /// The speed at which a point of the skin goes into an obstacle.
 fn approach_speed(point: &FoundationPoint, bodies: &RigidBodySet) -> f32 {
