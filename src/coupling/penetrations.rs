@@ -36,8 +36,12 @@ pub struct Contact {
 ///
 /// A vertex that several segments share belongs to the contact that leads it out of the part on the shortest way.
 pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
-    let found: Vec<Vec<Penetration>> =
-        near.par_iter().map(|near| find_penetrations(body, &parts[near.part], near, tolerance)).collect();
+    let points: Vec<SegmentPoints> =
+        (0..body.skins().len()).into_par_iter().map(|segment| SegmentPoints::of(body, segment)).collect();
+    let find = |near: &Proximity| {
+        find_penetrations(body, &points[usize::from(near.segment)], &parts[near.part], near, tolerance)
+    };
+    let found: Vec<Vec<Penetration>> = near.par_iter().map(find).collect();
     let mut shortest: HashMap<(usize, u32), (f32, usize)> = HashMap::new();
     for (contact, (near, vertices)) in near.iter().zip(&found).enumerate() {
         for p in vertices {
@@ -137,17 +141,48 @@ impl Contact {
     }
 }
 
-fn find_penetrations(body: &ElasticBody, part: &ObstaclePart, near: &Proximity, tolerance: f32) -> Vec<Penetration> {
+/// The skin of one segment as it is now, copied together: many parts are compared with it.
+struct SegmentPoints {
+    positions: Vec<Vec3>,
+    bounds: Aabb,
+}
+
+impl SegmentPoints {
+    fn of(body: &ElasticBody, segment: usize) -> Self {
+        let positions: Vec<Vec3> =
+            body.skins()[segment].vertices.iter().map(|&v| body.positions()[v as usize]).collect();
+        let low = positions.iter().copied().reduce(Vec3::min).unwrap_or_default();
+        let high = positions.iter().copied().reduce(Vec3::max).unwrap_or_default();
+        Self { positions, bounds: Aabb::new(low, high) }
+    }
+
+    /// The largest value of `(point − x) · direction` over the box around the skin.
+    fn farthest(&self, point: Vec3, direction: Vec3) -> f32 {
+        let middle = 0.5 * (self.bounds.mins + self.bounds.maxs);
+        (point - middle).dot(direction) + (self.bounds.maxs - middle).dot(direction.abs())
+    }
+}
+
+fn find_penetrations(
+    body: &ElasticBody,
+    points: &SegmentPoints,
+    part: &ObstaclePart,
+    near: &Proximity,
+    tolerance: f32,
+) -> Vec<Penetration> {
     let skin = &body.skins()[usize::from(near.segment)];
     let motion = body.motions()[usize::from(near.segment)];
     let reach = 2.0 * skin.size;
     // Nothing outside the part's box and its shadow, on the far side from the segment, can have gone in.
-    let shadow =
-        part.aabb.merged(&Aabb::new(part.aabb.mins - near.normal * reach, part.aabb.maxs - near.normal * reach));
-    let inward = motion.rotation.inverse() * near.normal;
+    let depth = points.farthest(near.axis_point, near.normal).clamp(0.0, reach);
+    let shift = near.normal * depth;
+    let shadow = part.aabb.merged(&Aabb::new(part.aabb.mins - shift, part.aabb.maxs - shift));
     let mut vertices = Vec::new();
-    for &vertex in &skin.vertices {
-        let x = body.positions()[vertex as usize];
+    if !shadow.intersects(&points.bounds) {
+        return vertices;
+    }
+    let inward = motion.rotation.inverse() * near.normal;
+    for (&vertex, &x) in skin.vertices.iter().zip(&points.positions) {
         if !shadow.contains_local_point(x) {
             continue;
         }
