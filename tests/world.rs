@@ -267,3 +267,20 @@ fn the_measured_depth_in_a_part_of_a_decomposed_mesh_is_the_height_below_its_nea
     }
     assert!(checked.iter().all(|&n| n > 1000), "{checked:?}");
 }
+
+#[test]
+fn a_body_at_rest_keeps_its_skin_to_the_bit_until_something_changes() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    let mut last = Vec::new();
+    let mut same = 0;
+    for _ in 0..900 {
+        step(&mut physics, &mut deformation, ball);
+        let now = deformation.get(ball).expect("a body").positions();
+        same = if now == last { same + 1 } else { 0 };
+        last = now.to_vec();
+    }
+    assert!(same > 60, "the skin still moved {same} frames ago");
+    deformation.settings.cancel.softness = Some(0.7);
+    step(&mut physics, &mut deformation, ball);
+    assert_ne!(deformation.get(ball).expect("a body").positions(), last);
+}

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::body_normals::{BodyNormals, Normals};
 use super::palette::{Palette, SegmentEntry, SpringStage};
 use super::rest::SegmentSkin;
-use super::rig::{ElasticRig, MAX_INFLUENCES};
+use super::rig::{ElasticRig, MAX_INFLUENCES, MassSpringSetRig};
 use super::skin_order::SkinOrder;
 use crate::field::{Integrator, LANES, SpringField};
 use crate::math::{Pose, Vec3};
@@ -172,6 +172,22 @@ impl ElasticBody {
             }
         }
         finite
+    }
+
+    /// True when no mass-spring set swings by more than `tolerance` metres any more; they are then put to rest exactly.
+    pub fn settle_springs(&mut self, tolerance: f32) -> bool {
+        // The energy of the oscillation, as the displacement at which it would turn back.
+        let swings = |(set, rig): (&MassSpringSet, &MassSpringSetRig)| {
+            let turning = set.velocity / rig.spring.angular_frequency();
+            set.displacement().length_squared() + turning.length_squared() > tolerance * tolerance
+        };
+        if self.settings.gravity != Vec3::ZERO || self.sets.iter().zip(&self.rig.sets).any(swings) {
+            return false;
+        }
+        for set in &mut self.sets {
+            *set = MassSpringSet::at_rest(set.p);
+        }
+        true
     }
 
     /// Builds the palette of this frame from the segments and sets; it has no collision passes yet.

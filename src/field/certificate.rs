@@ -27,8 +27,7 @@ const CERTIFIED_STEP: f32 = 0.69;
 /// than a strong one in the usual number (`|q − p| = r_o` in six midpoint steps has `h · Lip = 0.51`).
 pub fn usual_steps(lipschitz_sum: f32, usual: u32) -> u32 {
     let accurate = (lipschitz_sum / ACCURATE_STEP).ceil().clamp(1.0, 1.0e6) as u32;
-    certified_steps(lipschitz_sum, accurate.clamp(LEAST_STEPS.min(usual), usual))
+    certified_steps(lipschitz_sum, accurate.min(usual))
 }
 
 const ACCURATE_STEP: f32 = 0.35;
-const LEAST_STEPS: u32 = 2;

@@ -125,6 +125,9 @@ impl HuggingField {
         let width = f32x8::splat(1.0 / self.width);
         let rounding = f32x8::splat(self.part.part().rounding);
         let y = ((length - rounding) * width).max(f32x8::ZERO).min(f32x8::ONE);
+        if y.simd_ge(f32x8::ONE).all() {
+            return WideVec::ZERO;
+        }
         let k = f32x8::ONE - y * y * y * (f32x8::splat(4.0) - f32x8::splat(3.0) * y);
         let slope = k * (f32x8::splat(-12.0) * y * y * (f32x8::ONE - y)) * width;
         let grad = away.scaled(slope / length.max(f32x8::splat(f32::MIN_POSITIVE)));

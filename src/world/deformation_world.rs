@@ -8,10 +8,11 @@ use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::InteractionGroups;
 use rapier3d::pipeline::PhysicsWorld;
 
-use super::report::StepReport;
+use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
-use crate::coupling::{CancelSettings, ContactMemories, FoundationSettings, PartCache, Ragdoll, RagdollStart};
-use crate::elastic::{ElasticBody, ElasticRig};
+use crate::coupling::{CancelSettings, ContactMemories, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart};
+use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
+use crate::math::Pose;
 
 /// Names an elastic body in its world, as rapier's handles do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,12 +74,30 @@ pub enum InsertError {
     },
 }
 
+/// Everything that a body's deformation depends on, once its mass-spring sets have come to rest. While none of it
+/// changes, the skin stays as it is and costs nothing.
+#[derive(Clone, PartialEq)]
+pub(super) struct Circumstances {
+    pub motions: Vec<Pose>,
+    pub parts: Vec<(PartId, Pose)>,
+    pub world: DeformationSettings,
+    pub body: DeformSettings,
+}
+
+/// Circumstances that have been dealt with.
+pub(super) struct Settled {
+    pub circumstances: Circumstances,
+    pub report: BodyReport,
+}
+
 /// One body with its ties to rapier.
 pub(super) struct Entry {
     pub body: ElasticBody,
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
     pub memories: ContactMemories,
+    /// What the last deformation was made from, and what came out.
+    pub last: Option<Settled>,
     /// Size, mass and volume of the rig: the units of depths, stiffness and volume ratio.
     pub size: f32,
     pub mass: f32,
@@ -151,6 +170,7 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            last: None,
         };
         ElasticBodyHandle(self.entries.insert(entry))
     }

@@ -8,7 +8,9 @@ use rapier3d::geometry::ColliderHandle;
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::pipeline::QueryFilter;
 
-use super::deformation_world::{DeformationSettings, DeformationWorld, ElasticBodyHandle, Entry};
+use super::deformation_world::{
+    Circumstances, DeformationSettings, DeformationWorld, ElasticBodyHandle, Entry, Settled,
+};
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
@@ -25,6 +27,17 @@ struct Encounter {
     parts: Vec<ObstaclePart>,
     near: Vec<Proximity>,
     cancelled: CancelReport,
+    /// Nothing has changed since the last step: the skin stays as it is.
+    settled: Option<BodyReport>,
+    /// What to remember, where the mass-spring sets are at rest.
+    circumstances: Option<Circumstances>,
+}
+
+impl Encounter {
+    /// True where the skin has to be deformed in this step.
+    fn is_active(&self) -> bool {
+        self.frozen.is_none() && self.settled.is_none()
+    }
 }
 
 impl DeformationWorld {
@@ -76,6 +89,8 @@ impl DeformationWorld {
                 parts: Vec::new(),
                 near: Vec::new(),
                 cancelled: CancelReport::default(),
+                settled: None,
+                circumstances: None,
             }
         };
         self.entries.iter().map(read).collect()
@@ -108,6 +123,12 @@ impl DeformationWorld {
             encounter.parts = obstacles_near(&query, &region, entry.groups, &own, &mut self.parts, &mut refused);
             let margin = swing(entry);
             encounter.near = proximities(&entry.body, &encounter.parts, margin, &mut entry.memories);
+            if entry.body.settle_springs(SETTLED * entry.size) {
+                let now = circumstances(entry, encounter, &self.settings);
+                let last = entry.last.as_ref().filter(|last| last.circumstances == now);
+                encounter.settled = last.map(|last| last.report);
+                encounter.circumstances = Some(now);
+            }
         }
         report.refused = refused.into_values().collect();
     }
@@ -127,7 +148,7 @@ impl DeformationWorld {
 
     /// Local and global spring stages on every vertex.
     fn deform_by_springs(&mut self, encounters: &[Encounter]) {
-        for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
+        for encounter in encounters.iter().filter(|e| e.is_active()) {
             if let Some(entry) = self.entries.get_mut(encounter.handle.0) {
                 entry.body.build_palette();
                 entry.body.deform_springs();
@@ -137,7 +158,7 @@ impl DeformationWorld {
 
     /// The collision stage: what is left of the penetration vanishes from the visible surface.
     fn cancel_penetrations(&mut self, encounters: &mut [Encounter]) {
-        for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
+        for encounter in encounters.iter_mut().filter(|e| e.is_active()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             if entry.body.settings.enabled {
                 let settings = &self.settings.cancel;
@@ -148,16 +169,20 @@ impl DeformationWorld {
 
     /// Normals of the skin as it is drawn.
     fn renew_normals(&mut self, encounters: &[Encounter]) {
-        for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
+        for encounter in encounters.iter().filter(|e| e.is_active()) {
             if let Some(entry) = self.entries.get_mut(encounter.handle.0) {
                 entry.body.renew_normals();
             }
         }
     }
 
-    fn write_report(&self, encounters: &mut Vec<Encounter>, report: &mut StepReport) {
+    fn write_report(&mut self, encounters: &mut Vec<Encounter>, report: &mut StepReport) {
         for encounter in encounters.drain(..) {
-            let Some(entry) = self.entries.get(encounter.handle.0) else { continue };
+            let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
+            if let Some(figures) = encounter.settled {
+                report.bodies.push((encounter.handle, figures));
+                continue;
+            }
             let mut figures = BodyReport {
                 frozen: encounter.frozen,
                 volume_ratio: 1.0,
@@ -173,9 +198,24 @@ impl DeformationWorld {
                 figures.volume_ratio = (volume / entry.rest_volume) as f32;
             }
             report.bodies.push((encounter.handle, figures));
+            let settled = |circumstances| Settled { circumstances, report: figures };
+            entry.last = encounter.circumstances.map(settled);
         }
     }
 }
+
+/// Everything that the deformation of a body with resting sets depends on.
+fn circumstances(entry: &Entry, encounter: &Encounter, settings: &DeformationSettings) -> Circumstances {
+    Circumstances {
+        motions: encounter.motions.clone(),
+        parts: encounter.parts.iter().map(|part| (part.id, *part.placed.pose())).collect(),
+        world: *settings,
+        body: entry.body.settings,
+    }
+}
+
+/// Sets that move less than this, as a fraction of the body's size, are at rest.
+const SETTLED: f32 = 1.0e-4;
 
 fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Frozen> {
     let rest = &entry.body.rig().rest_poses;
