@@ -64,7 +64,6 @@ fn a_soft_ball_squashes_on_a_floor_of_100_m_wherever_it_lands_and_keeps_its_volu
         for frame in 0..240 {
             let report = drop.step();
             let p = report.penetration;
-            println!("{frame} {p:?} {}", report.volume_ratio);
             assert_eq!(p.vertices_inside, 0, "frame {frame}: {p:?}");
             assert!(p.max_gap < 0.01, "frame {frame}: {p:?}");
             assert!((report.volume_ratio - 1.0).abs() < 1e-3, "frame {frame}: volume {}", report.volume_ratio);
@@ -105,7 +104,6 @@ fn in_corner(walls: usize, placement: Placement) -> BodyReport {
 fn in_corners_of_two_and_three_walls_nothing_is_left_after_four_passes() {
     for walls in [1, 2, 3] {
         let report = in_corner(walls, Placement::Hugging);
-        println!("{walls} walls: {report:?}");
         assert!(report.penetration.max_depth_before > 0.1);
         assert!(report.penetration.max_depth_after < 1e-3, "{walls} walls: {report:?}");
         assert!(report.passes <= 4);
@@ -118,7 +116,6 @@ fn in_corners_of_two_and_three_walls_nothing_is_left_after_four_passes() {
 fn the_papers_literal_placement_fails_in_the_same_corners() {
     for walls in [2, 3] {
         let report = in_corner(walls, Placement::Literal);
-        println!("{walls} walls: {report:?}");
         assert!(
             report.penetration.max_depth_after > 1e-2 || report.penetration.max_gap > 1e-2,
             "{walls} walls: {report:?}"
@@ -136,7 +133,6 @@ fn a_body_thrown_at_20_m_s_at_a_wall_a_tenth_of_its_size_thick_comes_back() {
         for frame in 0..180 {
             let report = drop.step();
             assert!(drop.centre().x < 0.0, "{frequency} Hz, frame {frame}: went through to {}", drop.centre());
-            println!("{frequency} Hz, frame {frame}: {} {report:?}", drop.centre());
             assert_eq!(report.penetration.vertices_inside, 0, "{frequency} Hz, frame {frame}: {report:?}");
         }
         assert!(drop.centre().x < -RADIUS, "{frequency} Hz: stuck at {}", drop.centre());

@@ -14,7 +14,7 @@ use pliant::mesh::TriangleMesh;
 use pliant::spring::SpringCoefficients;
 use pliant::world::{BodyReport, DeformationWorld, ElasticBodyHandle, Frozen, InsertError};
 use rapier3d::dynamics::RigidBodyBuilder;
-use rapier3d::geometry::{ColliderBuilder, InteractionGroups};
+use rapier3d::geometry::{ColliderBuilder, HalfSpace, InteractionGroups, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
 
 const CONTACT: SpringCoefficients = SpringCoefficients::new(3.0, 0.2);
@@ -201,7 +201,7 @@ fn a_ball_falls_onto_a_concave_mesh_cut_into_convex_parts_and_ends_outside_of_al
         triangles.extend([[2 * a + 1, 2 * b + 1, 2 * c + 1], [2 * a, 2 * c, 2 * b]]);
     }
     let mesh = TriangleMesh::from_triangles(positions, triangles).expect("an L");
-    let shape = decompose(&mesh, 8);
+    let shape = decompose(&mesh, 8).expect("parts");
     assert!(convex_parts(&shape).expect("parts").len() >= 2);
     let mut physics = PhysicsWorld::new();
     let fixed = physics.insert_body(RigidBodyBuilder::fixed());
@@ -243,7 +243,7 @@ fn the_measured_depth_in_a_part_of_a_decomposed_mesh_is_the_height_below_its_nea
     let mesh = TriangleMesh::from_triangles(lumps, triangles).expect("a mesh");
     let mut rng = fastrand::Rng::with_seed(11);
     let mut checked = [0, 0];
-    for local in convex_parts(&decompose(&mesh, 12)).expect("parts") {
+    for local in convex_parts(&decompose(&mesh, 12).expect("a shape")).expect("parts") {
         let PartShape::Hull(hull) = &local.part.shape else { panic!("a hull") };
         let id = PartId { collider: (0, 0), part: 0 };
         let part = ObstaclePart::new(id, ColliderHandle::invalid(), &local, Pose::IDENTITY);
@@ -283,4 +283,76 @@ fn a_body_at_rest_keeps_its_skin_to_the_bit_until_something_changes() {
     deformation.settings.cancel.softness = Some(0.7);
     step(&mut physics, &mut deformation, ball);
     assert_ne!(deformation.get(ball).expect("a body").positions(), last);
+}
+
+#[test]
+fn a_ball_that_appears_inside_a_half_space_far_from_its_origin_is_let_out_upwards() {
+    let mut physics = PhysicsWorld::new();
+    let fixed = physics.insert_body(RigidBodyBuilder::fixed());
+    physics.insert_collider(ColliderBuilder::new(SharedShape::new(HalfSpace::new(Vec3::Y))), Some(fixed));
+    let mut deformation = DeformationWorld::new();
+    let start = RagdollStart { pose: Pose::from_translation(Vec3::new(10.0, -0.1, 0.0)), ..RagdollStart::default() };
+    let ball = deformation.insert(ball_rig(0.5, 1.2, CONTACT), &start, &mut physics);
+    let mut last = BodyReport::default();
+    for _ in 0..240 {
+        last = step(&mut physics, &mut deformation, ball);
+    }
+    let rigid = deformation.ragdoll(ball).expect("a ragdoll").bodies[0];
+    let at = physics.bodies[rigid].translation();
+    assert!(at.y > 0.3 && (at.x - 10.0).abs() < 0.2, "{at}");
+    assert_eq!(last.penetration.vertices_inside, 0, "{last:?}");
+}
+
+#[test]
+fn a_floor_of_tiles_is_as_soft_as_a_floor_of_one_box() {
+    let rest = |tiles: i32| {
+        let mut physics = PhysicsWorld::new();
+        let fixed = physics.insert_body(RigidBodyBuilder::fixed());
+        let half = 2.0 / tiles as f32;
+        for i in 0..tiles {
+            for j in 0..tiles {
+                let at = Vec3::new((2 * i + 1) as f32 * half - 2.0, -1.0, (2 * j + 1) as f32 * half - 2.0);
+                let tile = ColliderBuilder::cuboid(half, 1.0, half).translation(at);
+                physics.insert_collider(tile, Some(fixed));
+            }
+        }
+        let mut deformation = DeformationWorld::new();
+        let start = RagdollStart { pose: Pose::from_translation(Vec3::new(0.0, 0.6, 0.0)), ..RagdollStart::default() };
+        let ball = deformation.insert(ball_rig(0.5, 1.2, CONTACT), &start, &mut physics);
+        for _ in 0..600 {
+            step(&mut physics, &mut deformation, ball);
+        }
+        physics.bodies[deformation.ragdoll(ball).expect("a ragdoll").bodies[0]].translation().y
+    };
+    let (one, many) = (rest(1), rest(4));
+    // The force is the stiffness times the mean depth weighted by depth, two thirds of the largest in a cap of a sphere:
+    // the ball sinks in by 3/2 g / ω² = 41 mm.
+    assert!((0.5 - one - 0.041).abs() < 0.01, "{one}");
+    assert!((one - many).abs() < 0.006, "{one} on one box, {many} on tiles");
+}
+
+#[test]
+fn a_softness_of_zero_gives_a_finite_skin() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    deformation.settings.cancel.softness = Some(0.0);
+    for _ in 0..60 {
+        let report = step(&mut physics, &mut deformation, ball);
+        assert!(report.frozen.is_none() && report.volume_ratio.is_finite(), "{report:?}");
+    }
+}
+
+#[test]
+fn attaching_a_skin_to_bodies_far_away_does_not_make_it_swing() {
+    let mut physics = PhysicsWorld::new();
+    physics.gravity = Vec3::ZERO;
+    let rigid = physics.insert_body(RigidBodyBuilder::dynamic().translation(Vec3::new(100.0, 0.0, 0.0)));
+    let mut deformation = DeformationWorld::new();
+    let ragdoll = Ragdoll { bodies: vec![rigid], joints: Vec::new() };
+    let rig = ball_rig(0.5, 1.2, CONTACT);
+    let ball = deformation.attach(rig, ragdoll, InteractionGroups::all()).expect("one body for one segment");
+    for _ in 0..3 {
+        step(&mut physics, &mut deformation, ball);
+        let set = deformation.get(ball).expect("a body").sets()[0];
+        assert!(set.displacement().length() < 1e-4, "{}", set.displacement());
+    }
 }

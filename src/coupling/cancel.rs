@@ -76,7 +76,7 @@ pub fn cancel(
 ) -> CancelReport {
     let mut report = CancelReport::default();
     let tolerance = settings.depth_tolerance * size;
-    let softness = settings.softness.unwrap_or(body.rig().softness);
+    let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
     while report.passes < settings.max_passes {
         let mut contacts = find_contacts(body, parts, near, tolerance);
         if contacts.is_empty() {
@@ -106,6 +106,10 @@ pub fn cancel(
     }
     report
 }
+
+/// Softness outside of these bounds is taken as the bound.
+const LEAST_SOFTNESS: f32 = 0.05;
+const MOST_SOFTNESS: f32 = 10.0;
 
 /// Passes with fields of full width.
 const WIDE_PASSES: u32 = 2;

@@ -1,6 +1,7 @@
 //! Which segment meets which convex part, and which way out.
 
 use super::obstacle::ObstaclePart;
+use crate::field::PartShape;
 use crate::math::{Pose, Vec3};
 
 /// A convex part close to a segment, with the direction that leads out of it.
@@ -23,6 +24,9 @@ pub struct Proximity {
 /// not flip where the skin has already passed through a thin wall, and it changes smoothly while the body slides.
 /// `None` where the axis itself is inside the part.
 pub fn way_out(part: &ObstaclePart, axis: [Vec3; 2]) -> Option<(Vec3, Vec3)> {
+    if let PartShape::HalfSpace { normal } = part.placed.part().shape {
+        return Some((*part.placed.rotation() * normal, 0.5 * (axis[0] + axis[1])));
+    }
     let along = axis[1] - axis[0];
     let (mut low, mut high) = (0.0_f32, 1.0_f32);
     if along.length_squared() > 0.0 {

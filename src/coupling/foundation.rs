@@ -48,14 +48,23 @@ impl Default for FoundationSettings {
     }
 }
 
-/// Shares a contact's stiffness and damping among its points in proportion to their depth, so that a point that just
-/// touches adds nothing and nothing jumps when points come and go.
-pub fn share(points: &mut [FoundationPoint], stiffness: f32, damping: f32) {
-    let total: f32 = points.iter().map(|p| p.depth).sum();
-    for point in points {
-        let share = point.depth / total;
-        point.stiffness = stiffness * share;
-        point.damping = damping * share;
+/// Shares a body's contact stiffness and damping among the points of all its contacts, in proportion to their depth, so
+/// that a point that just touches adds nothing and nothing jumps when points come and go.
+///
+/// Contacts that push the same way share; contacts that push across each other do not. So a floor of many tiles is as soft
+/// as one of a single box, and a body in a corner rests on each wall with the full stiffness.
+pub fn share(contacts: &mut [Vec<FoundationPoint>], stiffness: f32, damping: f32) {
+    let sums: Vec<(Vec3, f32)> = contacts
+        .iter()
+        .map(|points| (points.first().map_or(Vec3::ZERO, |p| p.normal), points.iter().map(|p| p.depth).sum()))
+        .collect();
+    for (points, (normal, _)) in contacts.iter_mut().zip(&sums) {
+        let total: f32 = sums.iter().map(|(other, sum)| normal.dot(*other).max(0.0) * sum).sum();
+        for point in points {
+            let share = point.depth / total;
+            point.stiffness = stiffness * share;
+            point.damping = damping * share;
+        }
     }
 }
 
@@ -131,7 +140,7 @@ fn row(point: &FoundationPoint, a: usize, b: Option<usize>, velocities: &Velocit
         b,
         depth: point.depth,
         response: response(point.normal),
-        slide_response: response(t1).max(response(t2)),
+        slide_response: response(t1) + response(t2),
         pressure: 0.0,
         grip: Vec3::ZERO,
     }

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::cancel::CancelReport;
-use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
 use crate::elastic::ElasticBody;
 
@@ -26,22 +25,13 @@ pub struct PenetrationFigures {
 pub const INSIDE: f32 = 1.0e-3;
 
 /// Measures the skin of `body` against `parts`.
-pub fn measure(
-    body: &ElasticBody,
-    parts: &[ObstaclePart],
-    near: &[Proximity],
-    size: f32,
-    report: &CancelReport,
-) -> PenetrationFigures {
-    let mut touched: Vec<usize> = near.iter().map(|near| near.part).collect();
-    touched.sort_unstable();
-    touched.dedup();
+pub fn measure(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> PenetrationFigures {
     let (deepest, inside) = body
         .positions()
         .par_iter()
         .with_min_len(512)
         .map(|&x| {
-            let depth = touched.iter().map(|&part| parts[part].exact_depth(x)).fold(0.0, f32::max);
+            let depth = parts.iter().map(|part| part.exact_depth(x)).fold(0.0, f32::max);
             (depth, u32::from(depth > INSIDE * size))
         })
         .reduce(|| (0.0, 0), |a, b| (a.0.max(b.0), a.1 + b.1));

@@ -7,11 +7,12 @@ use rapier3d::geometry::{Collider, ColliderHandle};
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d::parry::query::Ray;
 use rapier3d::parry::shape::{ShapeType, SharedShape, TriMesh, TriMeshFlags, TypedShape};
-use rapier3d::parry::transformation::vhacd::VHACDParameters;
+use rapier3d::parry::transformation::vhacd::{VHACD, VHACDParameters};
 
 use crate::field::{ConvexHull, ConvexPart, HullError, PartShape, PlacedPart};
 use crate::math::{Pose, Vec3};
 use crate::mesh::TriangleMesh;
+use crate::mesh::measure::bounding_box;
 
 /// One convex part of a shape, in the shape's frame, in our form and in parry's.
 #[derive(Clone)]
@@ -32,6 +33,9 @@ pub enum ObstacleError {
     /// Decompose it first (see [`decompose`]).
     #[error("a {0:?} collider is not convex: decompose it into convex parts first")]
     NotConvex(ShapeType),
+    /// A mesh that VHACD finds no part of.
+    #[error("no convex part came out of the mesh: it is empty, too flat, or its size is not between 1 mm and 100 km")]
+    NoParts,
     /// A hull without a volume.
     #[error(transparent)]
     Flat(#[from] HullError),
@@ -92,10 +96,28 @@ fn convex_part(shape: &SharedShape) -> Result<ConvexPart, ObstacleError> {
 }
 
 /// Decomposes a closed mesh into at most `max_parts` convex hulls with parry's VHACD: a compound shape for a collider.
-pub fn decompose(mesh: &TriangleMesh, max_parts: u32) -> SharedShape {
+///
+/// # Errors
+/// [`ObstacleError::NoParts`] where the mesh is empty, or so small, so large or so flat that no part comes out.
+pub fn decompose(mesh: &TriangleMesh, max_parts: u32) -> Result<SharedShape, ObstacleError> {
+    let bounds = bounding_box(&mesh.positions);
+    let (least, most) = (bounds.extents().min_element(), bounds.extents().max_element());
+    if mesh.triangles.is_empty() || !(most < LARGEST_MESH && least > THINNEST_MESH * most && most > SMALLEST_MESH) {
+        return Err(ObstacleError::NoParts);
+    }
     let parameters = VHACDParameters { max_convex_hulls: max_parts.max(1), ..Default::default() };
-    SharedShape::convex_decomposition_with_params(&mesh.positions, &mesh.triangles, &parameters)
+    let parts = VHACD::decompose(&parameters, &mesh.positions, &mesh.triangles, true)
+        .compute_exact_convex_hulls(&mesh.positions, &mesh.triangles);
+    let hulls = parts.into_iter().filter_map(|(points, triangles)| SharedShape::convex_mesh(points, &triangles));
+    let members: Vec<(Pose, SharedShape)> = hulls.map(|hull| (Pose::IDENTITY, hull)).collect();
+    if members.is_empty() { Err(ObstacleError::NoParts) } else { Ok(SharedShape::compound(members)) }
 }
+
+/// Meshes with a longest side outside of these lengths in metres, or thinner than this part of it, are not decomposed:
+/// their voxels would be lost in rounding.
+const SMALLEST_MESH: f32 = 1.0e-3;
+const LARGEST_MESH: f32 = 1.0e5;
+const THINNEST_MESH: f32 = 1.0e-4;
 
 /// Names a convex part of a collider for as long as the collider keeps its shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,6 +1,6 @@
 //! The contacts of a skin: which vertices of which segment have gone into which parts, and how deep.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rayon::prelude::*;
@@ -70,7 +70,7 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
         let joins = |group: &&mut Contact| {
             group.near.segment == contact.near.segment
                 && group.near.normal.dot(contact.near.normal) > SAME_WAY
-                && group.parts().any(|part| parts[part].aabb.intersects(&parts[contact.near.part].aabb))
+                && group.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[contact.near.part].aabb))
         };
         match groups.iter_mut().find(joins) {
             Some(group) => group.absorb(body, parts, &contact),
@@ -100,9 +100,9 @@ impl Contact {
         self.vertices.first().map_or(0.0, |p| p.depth)
     }
 
-    /// The parts that the vertices are in, with repetitions.
-    pub fn parts(&self) -> impl Iterator<Item = usize> + '_ {
-        self.vertices.iter().map(|p| p.part)
+    /// The parts that the vertices are in, each once.
+    pub fn parts(&self) -> BTreeSet<usize> {
+        self.vertices.iter().map(|p| p.part).collect()
     }
 
     /// The same contact with the direction in which its vertices are nearest to the surface, on the whole.
@@ -129,10 +129,11 @@ impl Contact {
     /// Takes over the vertices of another contact, with their depths along this one's direction.
     fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
         let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;
+        let places: HashMap<u32, usize> = self.vertices.iter().enumerate().map(|(i, p)| (p.vertex, i)).collect();
         for p in &other.vertices {
             let x = body.positions()[p.vertex as usize];
             let depth = parts[p.part].exit(x, self.near.normal, reach).unwrap_or(p.depth);
-            match self.vertices.iter_mut().find(|own| own.vertex == p.vertex) {
+            match places.get(&p.vertex).map(|&i| &mut self.vertices[i]) {
                 Some(own) if own.depth >= depth => {}
                 Some(own) => *own = Penetration { depth, ..*p },
                 None => self.vertices.push(Penetration { depth, ..*p }),

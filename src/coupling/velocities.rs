@@ -104,7 +104,8 @@ impl Velocities {
         for entry in &self.entries {
             let linear = entry.linear - gravity * (entry.gravity_scale * dt);
             let finite = linear.is_finite() && entry.angular.is_finite();
-            if !finite || entry.inverse_mass == Vec3::ZERO {
+            let fixed = entry.inverse_mass == Vec3::ZERO && entry.inverse_inertia == Mat3::ZERO;
+            if !finite || fixed {
                 continue;
             }
             if let Some(body) = bodies.get_mut(entry.handle)

@@ -148,8 +148,12 @@ impl ElasticBody {
         self.normals.renew(self.settings.normals, &self.rig, &self.palette, &self.positions);
     }
 
-    /// Moves the segments without moving the sets: for the first frame and for teleports.
+    /// Moves the segments without moving the sets: for the first frame and for teleports. Nothing happens unless there
+    /// is one motion a segment.
     pub fn place(&mut self, motions: &[Pose]) {
+        if motions.len() != self.motions.len() {
+            return;
+        }
         self.motions.copy_from_slice(motions);
         for (state, set) in self.sets.iter_mut().zip(&self.rig.sets) {
             *state = MassSpringSet::at_rest(motions[set.segment].transform_point(set.anchor));
@@ -158,8 +162,12 @@ impl ElasticBody {
 
     /// Moves the segments and lets the mass-spring sets follow over `h` seconds.
     ///
-    /// Returns false, and puts the sets to rest, where a state came out that is not finite.
+    /// Returns false, and puts the sets to rest, where a state came out that is not finite; false too unless there is
+    /// one motion a segment.
     pub fn move_springs(&mut self, motions: &[Pose], h: f32) -> bool {
+        if motions.len() != self.motions.len() {
+            return false;
+        }
         self.motions.copy_from_slice(motions);
         let DeformSettings { gravity, displacement_limit, .. } = self.settings;
         let mut finite = true;
@@ -208,6 +216,11 @@ impl ElasticBody {
             let [local, global] = stages.map(|fields| SpringStage::certified(fields, integrator, max_steps));
             self.palette.segments.push(SegmentEntry { motion: *motion, local, global });
         }
+    }
+
+    /// True when every vertex is finite.
+    pub fn is_finite(&self) -> bool {
+        self.positions.iter().all(|x| x.is_finite())
     }
 
     /// Deforms every vertex by the spring stages alone, in parallel: equation (18).

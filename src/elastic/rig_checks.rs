@@ -1,7 +1,10 @@
 //! The checks of a rig: numbers in their ranges, names that differ, joints that form one tree, a closed mesh.
 
 use super::rig_fault::{RigFault, RigFaultKind as Kind, RigPlace, RigTable};
-use super::{ContactSettings, Joint, MAX_SEGMENTS, MassSpringSetRig, Segment, SegmentMass, SegmentShape, SkinWeights};
+use super::{
+    ContactSettings, Joint, MAX_INFLUENCES, MAX_SEGMENTS, MassSpringSetRig, Segment, SegmentMass, SegmentShape,
+    SkinWeights,
+};
 use crate::math::Vec3;
 use crate::mesh::{MeshError, Orientation, Topology, TriangleMesh};
 use crate::spring::SpringCoefficients;
@@ -19,20 +22,27 @@ fn in_range(table: RigTable, key: &'static str, value: f32, ok: bool, range: &'s
 }
 
 pub(super) fn positive(table: RigTable, key: &'static str, value: f32) -> Check {
-    in_range(table, key, value, value > 0.0 && value.is_finite(), "a finite number above 0")
+    in_range(table, key, value, (1.0e-6..=1.0e15).contains(&value), "a finite number above 0 (1e-6 to 1e15)")
 }
 
 pub(super) fn not_negative(table: RigTable, key: &'static str, value: f32) -> Check {
-    in_range(table, key, value, value >= 0.0 && value.is_finite(), "a finite number of at least 0")
+    in_range(table, key, value, (0.0..=1.0e15).contains(&value), "a finite number of at least 0 (and at most 1e15)")
 }
 
 fn finite(table: RigTable, key: &'static str, point: Vec3) -> Check {
-    if point.is_finite() { Ok(()) } else { Err(fault(table, key, Kind::NotFinite)) }
+    if !point.is_finite() {
+        return Err(fault(table, key, Kind::NotFinite));
+    }
+    let farthest = point.abs().max_element();
+    in_range(table, key, farthest, farthest <= FARTHEST, "at most 1e5 m from the origin along each axis")
 }
+
+/// Coordinates beyond this have too few digits left for a skin.
+const FARTHEST: f32 = 1.0e5;
 
 fn spring(table: RigTable, spring: SpringCoefficients) -> Check {
     let f = spring.natural_frequency;
-    in_range(table, "frequency", f, f > 0.0 && f <= 1000.0, "above 0 and at most 1000 Hz")?;
+    in_range(table, "frequency", f, (1.0e-3..=1000.0).contains(&f), "from 0.001 to 1000 Hz")?;
     not_negative(table, "damping_ratio", spring.damping_ratio)
 }
 
@@ -187,6 +197,12 @@ pub(super) fn check_mesh(mesh: &TriangleMesh) -> Check {
     }
 }
 
+/// True where two pairs with a weight name the same segment.
+fn names_twice(w: &SkinWeights) -> bool {
+    let used = |k: &usize| w.weights[*k] > 0.0;
+    (0..MAX_INFLUENCES).filter(used).any(|k| (0..k).filter(used).any(|other| w.segments[k] == w.segments[other]))
+}
+
 /// Weights given by the caller. To be called with a valid mesh.
 pub(super) fn check_weights(weights: &[SkinWeights], mesh: &TriangleMesh, segments: usize) -> Check {
     let at = |kind| Err(fault(RigTable::Rig, "weights", kind));
@@ -201,6 +217,8 @@ pub(super) fn check_weights(weights: &[SkinWeights], mesh: &TriangleMesh, segmen
             "they do not sum to 1"
         } else if w.segments.iter().any(|&s| usize::from(s) >= segments) {
             "they name a segment that does not exist"
+        } else if names_twice(w) {
+            "they name a segment twice"
         } else if weights.get(mesh.welded[vertex] as usize) != Some(w) {
             "they differ from those of the vertex welded to it, the skin would tear"
         } else {

@@ -96,11 +96,12 @@ pub(super) struct Entry {
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
     pub memories: ContactMemories,
+    /// False until the body has been placed on its rigid bodies.
+    pub placed: bool,
     /// What the last deformation was made from, and what came out.
     pub last: Option<Settled>,
-    /// Size, mass and volume of the rig: the units of depths, stiffness and volume ratio.
+    /// Size and volume of the rig: the units of depths and of the volume ratio.
     pub size: f32,
-    pub mass: f32,
     pub rest_volume: f64,
 }
 
@@ -139,10 +140,11 @@ impl DeformationWorld {
         body.build_palette();
         body.deform_springs();
         body.renew_normals();
-        self.add(body, ragdoll, start.groups)
+        self.add(body, ragdoll, start.groups, true)
     }
 
-    /// Puts an elastic body on top of rigid bodies that exist already, one a segment and in their order.
+    /// Puts an elastic body on top of rigid bodies that exist already, one a segment and in their order. Its skin is there
+    /// after the next step.
     ///
     /// # Errors
     /// [`InsertError`] where the counts differ.
@@ -156,20 +158,26 @@ impl DeformationWorld {
         if segments != bodies {
             return Err(InsertError::BodyCount { segments, bodies });
         }
-        Ok(self.add(ElasticBody::new(rig), ragdoll, groups))
+        Ok(self.add(ElasticBody::new(rig), ragdoll, groups, false))
     }
 
-    fn add(&mut self, body: ElasticBody, ragdoll: Ragdoll, groups: InteractionGroups) -> ElasticBodyHandle {
+    fn add(
+        &mut self,
+        body: ElasticBody,
+        ragdoll: Ragdoll,
+        groups: InteractionGroups,
+        placed: bool,
+    ) -> ElasticBodyHandle {
         self.own.extend(ragdoll.bodies.iter().map(|handle| handle.into_raw_parts()));
         let rig = body.rig().clone();
         let entry = Entry {
             size: rig.mesh.size(),
-            mass: rig.segments.iter().map(crate::coupling::segment_mass).sum(),
             rest_volume: rig.mesh.volume(),
             body,
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            placed,
             last: None,
         };
         ElasticBodyHandle(self.entries.insert(entry))

@@ -100,7 +100,9 @@ impl DeformationWorld {
     fn move_springs(&mut self, encounters: &mut [Encounter], dt: f32) {
         for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
-            if !entry.body.move_springs(&encounter.motions, dt) {
+            if !std::mem::replace(&mut entry.placed, true) {
+                entry.body.place(&encounter.motions);
+            } else if !entry.body.move_springs(&encounter.motions, dt) {
                 encounter.frozen = Some(Frozen::NotFinite);
             }
         }
@@ -138,10 +140,17 @@ impl DeformationWorld {
         let mut points = Vec::new();
         for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
-            for near in &encounter.near {
-                let contact = foundation_points(entry, &encounter.parts[near.part], near, rapier, &self.settings);
-                points.extend(contact);
-            }
+            let mut contacts: Vec<Vec<FoundationPoint>> = encounter
+                .near
+                .iter()
+                .map(|near| foundation_points(entry, &encounter.parts[near.part], near, rapier, &self.settings))
+                .collect();
+            let bodies = entry.ragdoll.bodies.iter().filter_map(|&handle| rapier.bodies.get(handle));
+            let mass: f32 = bodies.map(|body| body.mass()).sum();
+            let (stiffness, damping) = entry.body.rig().contact.spring.stiffness_damping(mass);
+            let factor = self.settings.stiffness;
+            share(&mut contacts, stiffness * factor, damping * factor.sqrt());
+            points.extend(contacts.into_iter().flatten());
         }
         push_back(&points, rapier.gravity, rapier.dt, self.settings.foundation, rapier.bodies);
     }
@@ -163,6 +172,14 @@ impl DeformationWorld {
             if entry.body.settings.enabled {
                 let settings = &self.settings.cancel;
                 encounter.cancelled = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
+            }
+            if !entry.body.is_finite() {
+                // Whatever it was, it is not to be seen: the skin follows the rigid bodies, and the report says why.
+                entry.body.place(&encounter.motions);
+                entry.body.build_palette();
+                entry.body.deform_springs();
+                encounter.cancelled = CancelReport::default();
+                encounter.frozen = Some(Frozen::NotFinite);
             }
         }
     }
@@ -191,8 +208,8 @@ impl DeformationWorld {
                 ..BodyReport::default()
             };
             if self.settings.measure && encounter.frozen.is_none() {
-                let Encounter { parts, near, cancelled, .. } = &encounter;
-                figures.penetration = measure(&entry.body, parts, near, entry.size, cancelled);
+                let Encounter { parts, cancelled, .. } = &encounter;
+                figures.penetration = measure(&entry.body, parts, entry.size, cancelled);
                 let volume =
                     crate::mesh::measure::signed_volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
                 figures.volume_ratio = (volume / entry.rest_volume) as f32;
@@ -253,7 +270,7 @@ fn region_of(entry: &Entry) -> Aabb {
     Aabb::new(mins - margin, maxs + margin)
 }
 
-/// The thinned skin points of one segment that are inside one part, with their shares of the contact's stiffness.
+/// The thinned skin points of one segment that are inside one part; their shares of the stiffness follow.
 fn foundation_points(
     entry: &mut Entry,
     part: &ObstaclePart,
@@ -288,8 +305,7 @@ fn foundation_points(
         })
         .collect();
     let approach = points.iter().map(|point| approach_speed(point, rapier.bodies)).fold(0.0, f32::max);
-    let stiffness_factor = settings.stiffness;
-    let period = 1.0 / (contact.spring.natural_frequency * stiffness_factor.sqrt());
+    let period = 1.0 / (contact.spring.natural_frequency * settings.stiffness.sqrt());
     let release = entry.memories.get_mut(&(near.segment, part.id)).map_or(approach, |memory| {
         memory.remember(approach, rapier.dt, period);
         memory.approach
@@ -298,8 +314,6 @@ fn foundation_points(
     for point in &mut points {
         point.release = release.max(RECOVERY * point.depth / rapier.dt);
     }
-    let (stiffness, damping) = contact.spring.stiffness_damping(entry.mass);
-    share(&mut points, stiffness * stiffness_factor, damping * stiffness_factor.sqrt());
     points
 }
 

@@ -20,6 +20,7 @@ pub struct Summary {
     after: f32,
     gap: f32,
     frames_inside: u64,
+    frames_frozen: u64,
     volume: Option<[f32; 2]>,
     /// Sums of milliseconds: rigid, springs, contact, deform, measure.
     stages: [f32; 5],
@@ -36,16 +37,19 @@ impl Summary {
         self.bodies = simulation.actors.len();
         self.seconds = simulation.time();
         let mut inside = false;
+        let mut frozen = false;
         for report in simulation.actors.iter().map(|actor| simulation.report(actor)) {
             let figures = report.penetration;
             self.before = self.before.max(figures.max_depth_before);
             self.after = self.after.max(figures.max_depth_after);
             self.gap = self.gap.max(figures.max_gap);
             inside |= figures.vertices_inside > 0;
+            frozen |= report.frozen.is_some();
             let [low, high] = self.volume.unwrap_or([f32::INFINITY, f32::NEG_INFINITY]);
             self.volume = Some([low.min(report.volume_ratio), high.max(report.volume_ratio)]);
         }
         self.frames_inside += u64::from(inside);
+        self.frames_frozen += u64::from(frozen);
         let times = simulation.times();
         let stages = [simulation.rigid_ms, times.springs, times.contact, times.deform, times.measure];
         for (sum, stage) in self.stages.iter_mut().zip(stages) {
@@ -84,6 +88,9 @@ impl fmt::Display for Summary {
                  {} frames with vertices inside; volume {low:.4} to {high:.4}",
                 self.before, self.after, self.gap, self.frames_inside
             )?;
+            if self.frames_frozen > 0 {
+                write!(f, "; {} frames with a FROZEN body (a pose or a vertex was not finite)", self.frames_frozen)?;
+            }
             match self.still_since {
                 Some(since) if self.seconds - since >= STILL_TIME => write!(f, "; at rest since {since:.1} s")?,
                 _ => write!(f, "; not at rest ({:.2} m/s)", self.speed)?,

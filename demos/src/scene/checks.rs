@@ -5,6 +5,9 @@ use pliant::elastic::{TomlError, TomlKey, TomlText};
 use pliant::math::{Pose, Quat, Vec3};
 use std::path::{Path, PathBuf};
 
+/// Largest number of a scene: beyond, coordinates have too few digits left for a skin.
+pub(super) const LARGEST: f32 = 1.0e5;
+
 /// A table of the file: the text and the way to the table.
 #[derive(Clone)]
 pub(super) struct At<'a> {
@@ -65,7 +68,13 @@ impl<'a> At<'a> {
 
     pub fn finite(&self, key: &str, value: [f32; 3]) -> Result<Vec3, TomlError> {
         let v = Vec3::from(value);
-        if v.is_finite() { Ok(v) } else { Err(self.error(key, "must be finite numbers")) }
+        if !v.is_finite() {
+            return Err(self.error(key, "must be finite numbers"));
+        }
+        if v.abs().max_element() > LARGEST {
+            return Err(self.error(key, format!("must be numbers of at most {LARGEST}")));
+        }
+        Ok(v)
     }
 
     /// A pose from `position` and XYZ Euler angles `rotation_degrees`.

@@ -1,6 +1,6 @@
 //! Reading a scene file: every fault is told with the file, the line and the key.
 
-use super::checks::At;
+use super::checks::{At, LARGEST};
 use super::raw::{RawBody, RawObstacle, RawPath, RawScene, RawShape, RawSpin};
 use super::types::{Body, Camera, MAX_DT, MAX_DURATION, Obstacle, ObstaclePath, ObstacleShape, PathKind, Scene, Spin};
 use pliant::elastic::{TomlError, TomlText, did_you_mean};
@@ -116,7 +116,7 @@ fn shape(at: &At, raw: &RawShape) -> Result<ObstacleShape, TomlError> {
             _ => {}
         }
     }
-    let length = |key, value: Option<f32>| at.above_zero(key, value.unwrap_or(1.0), f32::MAX);
+    let length = |key, value: Option<f32>| at.above_zero(key, value.unwrap_or(1.0), LARGEST);
     let radius = length("radius", raw.radius)?;
     let half_height = length("half_height", raw.half_height)?;
     Ok(match kind {
@@ -126,18 +126,21 @@ fn shape(at: &At, raw: &RawShape) -> Result<ObstacleShape, TomlError> {
         "cone" => ObstacleShape::Cone { half_height, radius },
         "cuboid" => {
             let sides = raw.half_extents.unwrap_or([1.0; 3]);
-            sides.iter().try_for_each(|s| at.above_zero("half_extents", *s, f32::MAX).map(drop))?;
+            sides.iter().try_for_each(|s| at.above_zero("half_extents", *s, LARGEST).map(drop))?;
             ObstacleShape::Cuboid { half_extents: Vec3::from(sides) }
         }
         _ => {
-            if raw.max_parts == Some(0) {
-                return Err(at.error("max_parts", "must be at least 1"));
+            if raw.max_parts.is_some_and(|parts| !(1..=MAX_PARTS).contains(&parts)) {
+                return Err(at.error("max_parts", format!("must be at least 1 and at most {MAX_PARTS}")));
             }
             let file = at.file("file", raw.file.as_deref().unwrap_or(Path::new("")))?;
             ObstacleShape::Mesh { file, scale: length("scale", raw.scale)?, max_parts: raw.max_parts }
         }
     })
 }
+
+/// Most convex parts of a mesh: more take minutes to find and do not look better.
+const MAX_PARTS: u32 = 1024;
 
 fn path(at: &At, raw: &RawPath) -> Result<ObstaclePath, TomlError> {
     if raw.points.len() < 2 {
@@ -153,7 +156,7 @@ fn path(at: &At, raw: &RawPath) -> Result<ObstaclePath, TomlError> {
     };
     Ok(ObstaclePath {
         points: raw.points.iter().map(|p| at.finite("points", *p)).collect::<Result<_, _>>()?,
-        period: at.above_zero("period", raw.period, f32::MAX)?,
+        period: at.above_zero("period", raw.period, LARGEST)?,
         kind,
     })
 }

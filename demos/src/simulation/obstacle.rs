@@ -84,7 +84,9 @@ fn shape_of(obstacle: &Obstacle) -> Result<(SharedShape, Option<TriangleMesh>), 
         ObstacleShape::Cone { half_height, radius } => SharedShape::cone(*half_height, *radius),
         ObstacleShape::Mesh { file, scale, max_parts } => {
             let mesh = scaled_mesh(file, *scale)?;
-            return Ok((decompose(&mesh, max_parts.unwrap_or(DEFAULT_PARTS)), Some(mesh)));
+            let shape = decompose(&mesh, max_parts.unwrap_or(DEFAULT_PARTS));
+            let shape = shape.map_err(|error| BuildError::Parts { name: file.display().to_string(), error })?;
+            return Ok((shape, Some(mesh)));
         }
     };
     Ok((shape, None))
