@@ -356,3 +356,24 @@ fn attaching_a_skin_to_bodies_far_away_does_not_make_it_swing() {
         assert!(set.displacement().length() < 1e-4, "{}", set.displacement());
     }
 }
+
+#[test]
+fn a_second_body_of_a_rig_is_like_the_first() {
+    let rig = ball_rig(0.5, 1.2, CONTACT);
+    let mut physics = PhysicsWorld::new();
+    let mut deformation = DeformationWorld::new();
+    let first = deformation.insert(rig.clone(), &RagdollStart::default(), &mut physics);
+    for _ in 0..20 {
+        step(&mut physics, &mut deformation, first);
+    }
+    deformation.get_mut(first).expect("a body").settings.enabled = false;
+    let second = deformation.insert(rig.clone(), &RagdollStart::default(), &mut physics);
+    let mut alone = DeformationWorld::new();
+    let new = alone.insert(rig, &RagdollStart::default(), &mut PhysicsWorld::new());
+    let (second, new) = (deformation.get(second).expect("a body"), alone.get(new).expect("a body"));
+    assert_eq!(second.positions(), new.positions());
+    assert_eq!(second.normals(), new.normals());
+    assert_eq!(second.sets(), new.sets());
+    assert_eq!(second.palette(), new.palette());
+    assert_eq!(second.settings, new.settings);
+}

@@ -103,6 +103,19 @@ impl ElasticBody {
         body
     }
 
+    /// Another body of the same rig, at rest where the rig was modelled. All rest data is shared with this one, so that it
+    /// costs much less than [`ElasticBody::new`].
+    #[must_use]
+    pub fn twin(&self) -> Self {
+        let mut body = self.clone();
+        body.settings = DeformSettings::default();
+        body.place(&vec![Pose::IDENTITY; self.motions.len()]);
+        body.positions.copy_from_slice(&self.rig.mesh.positions);
+        body.normals.normals.copy_from_slice(&self.rig.mesh.normals);
+        body.build_palette();
+        body
+    }
+
     /// The shared rest data.
     pub fn rig(&self) -> &Arc<ElasticRig> {
         &self.rig

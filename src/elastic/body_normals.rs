@@ -1,5 +1,7 @@
 //! Normals of the deformed skin on the processor.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::palette::Palette;
@@ -24,7 +26,7 @@ pub enum Normals {
 #[derive(Clone, Debug)]
 pub(super) struct BodyNormals {
     /// None only for a mesh that no rig builder lets through.
-    topology: Option<NormalTopology>,
+    topology: Option<Arc<NormalTopology>>,
     epsilon: f32,
     faces: Vec<Vec3>,
     pub normals: Vec<Vec3>,
@@ -33,7 +35,7 @@ pub(super) struct BodyNormals {
 impl BodyNormals {
     pub fn new(rig: &ElasticRig) -> Self {
         Self {
-            topology: NormalTopology::new(&rig.mesh.triangles, &rig.mesh.welded).ok(),
+            topology: NormalTopology::new(&rig.mesh.triangles, &rig.mesh.welded).ok().map(Arc::new),
             epsilon: tangent_epsilon(&rig.mesh.positions),
             faces: Vec::new(),
             normals: rig.mesh.normals.clone(),

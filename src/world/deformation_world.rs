@@ -134,7 +134,7 @@ impl DeformationWorld {
     ) -> ElasticBodyHandle {
         let sets = sets.into();
         let ragdoll = Ragdoll::spawn(&rig, start, sets.bodies, sets.colliders, sets.joints);
-        let mut body = ElasticBody::new(rig);
+        let mut body = self.body_of(rig);
         let motions = vec![start.pose; body.motions().len()];
         body.place(&motions);
         body.build_palette();
@@ -158,7 +158,17 @@ impl DeformationWorld {
         if segments != bodies {
             return Err(InsertError::BodyCount { segments, bodies });
         }
-        Ok(self.add(ElasticBody::new(rig), ragdoll, groups, false))
+        let body = self.body_of(rig);
+        Ok(self.add(body, ragdoll, groups, false))
+    }
+
+    /// A new body of a rig: what is derived from the rig is shared with the bodies that it has already.
+    fn body_of(&self, rig: Arc<ElasticRig>) -> ElasticBody {
+        let mut bodies = self.iter().map(|(_, body)| body);
+        match bodies.find(|body| Arc::ptr_eq(body.rig(), &rig)) {
+            Some(body) => body.twin(),
+            None => ElasticBody::new(rig),
+        }
     }
 
     fn add(
