@@ -285,6 +285,20 @@ fn a_body_at_rest_keeps_its_skin_to_the_bit_until_something_changes() {
     assert_ne!(deformation.get(ball).expect("a body").positions(), last);
 }
 
+/// A resting skin was kept although the shape of the collider under it, not its pose, had changed.
+#[test]
+fn a_body_at_rest_notices_that_the_shape_under_it_was_exchanged() {
+    let (mut physics, mut deformation, ball) = ball_above_a_floor();
+    for _ in 0..900 {
+        step(&mut physics, &mut deformation, ball);
+    }
+    let before = deformation.get(ball).expect("a body").positions().to_vec();
+    let (_, floor) = physics.colliders.iter_mut().next().expect("the floor");
+    floor.set_shape(SharedShape::cuboid(50.0, 1.02, 50.0));
+    deformation.step(&mut physics);
+    assert_ne!(deformation.get(ball).expect("a body").positions(), before);
+}
+
 #[test]
 fn a_ball_that_appears_inside_a_half_space_far_from_its_origin_is_let_out_upwards() {
     let mut physics = PhysicsWorld::new();

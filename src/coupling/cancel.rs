@@ -60,8 +60,6 @@ pub struct CancelReport {
     pub contacts: Vec<Contact>,
     /// Number of passes.
     pub passes: u32,
-    /// Largest number of integration steps in a pass.
-    pub steps: u32,
 }
 
 /// Cancels the penetration of `body` into `parts`: adds passes to its palette and carries its skin along.
@@ -83,11 +81,9 @@ pub fn cancel(
             break;
         }
         // What two passes leave over is small and wedged: it is pushed out on the nearest way, by narrower fields.
-        let mut reach = softness;
-        for _ in WIDE_PASSES..=report.passes {
-            reach *= 0.5;
-        }
-        if report.passes >= WIDE_PASSES {
+        let narrow = (report.passes + 1).saturating_sub(WIDE_PASSES);
+        let reach = (softness * 0.5_f32.powi(narrow as i32)).max(LEAST_SOFTNESS);
+        if narrow > 0 {
             contacts = contacts.into_iter().map(|contact| contact.by_the_nearest_way(body, parts)).collect();
         }
         let pass = match settings.placement {
@@ -95,7 +91,6 @@ pub fn cancel(
             Placement::Literal => super::literal::place(body, parts, near, softness),
         };
         report.passes += 1;
-        report.steps = report.steps.max(pass.steps);
         if report.passes == 1 {
             report.contacts = contacts;
         }

@@ -25,6 +25,6 @@ mod velocities;
 
 pub use foundation::{FoundationPoint, FoundationSettings, push_back, share};
 pub use measure::{INSIDE, PenetrationFigures, measure};
-pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_mass, segment_shape};
+pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;
 pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities};

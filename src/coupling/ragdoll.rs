@@ -109,11 +109,6 @@ fn mass_properties(segment: &Segment) -> MassProperties {
     }
 }
 
-/// Mass of a segment in kilograms.
-pub fn segment_mass(segment: &Segment) -> f32 {
-    mass_properties(segment).mass()
-}
-
 /// A ball joint whose motors pull the segments back to the rest pose, as springs of the given frequency and damping.
 pub fn elastic_joint(rig: &ElasticRig, joint: &Joint) -> GenericJoint {
     let anchor = Pose::from_translation(joint.anchor);

@@ -12,6 +12,7 @@ use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::{CancelSettings, ContactMemories, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart};
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
+use crate::field::PlacedPart;
 use crate::math::Pose;
 
 /// Names an elastic body in its world, as rapier's handles do.
@@ -79,7 +80,7 @@ pub enum InsertError {
 #[derive(Clone, PartialEq)]
 pub(super) struct Circumstances {
     pub motions: Vec<Pose>,
-    pub parts: Vec<(PartId, Pose)>,
+    pub parts: Vec<(PartId, PlacedPart)>,
     pub world: DeformationSettings,
     pub body: DeformSettings,
 }

@@ -178,6 +178,7 @@ impl DeformationWorld {
                 entry.body.place(&encounter.motions);
                 entry.body.build_palette();
                 entry.body.deform_springs();
+                entry.body.renew_normals();
                 encounter.cancelled = CancelReport::default();
                 encounter.frozen = Some(Frozen::NotFinite);
             }
@@ -225,7 +226,7 @@ impl DeformationWorld {
 fn circumstances(entry: &Entry, encounter: &Encounter, settings: &DeformationSettings) -> Circumstances {
     Circumstances {
         motions: encounter.motions.clone(),
-        parts: encounter.parts.iter().map(|part| (part.id, *part.placed.pose())).collect(),
+        parts: encounter.parts.iter().map(|part| (part.id, part.placed.clone())).collect(),
         world: *settings,
         body: entry.body.settings,
     }
