@@ -74,7 +74,7 @@ pub fn cancel(
 ) -> CancelReport {
     let mut report = CancelReport::default();
     let tolerance = settings.depth_tolerance * size;
-    let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
+    let softness = settings.softness.unwrap_or(body.rig().softness);
     while report.passes < settings.max_passes {
         let mut contacts = find_contacts(body, parts, near, tolerance);
         if contacts.is_empty() {
@@ -82,7 +82,7 @@ pub fn cancel(
         }
         // What two passes leave over is small and wedged: it is pushed out on the nearest way, by narrower fields.
         let narrow = (report.passes + 1).saturating_sub(WIDE_PASSES);
-        let reach = (softness * 0.5_f32.powi(narrow as i32)).max(LEAST_SOFTNESS);
+        let reach = (softness * 0.5_f32.powi(narrow as i32)).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
         if narrow > 0 {
             contacts = contacts.into_iter().map(|contact| contact.by_the_nearest_way(body, parts)).collect();
         }
