@@ -162,3 +162,17 @@ fn contacts_of_any_stiffness_come_to_rest_and_never_gain_energy() {
         }
     }
 }
+
+#[test]
+fn a_body_that_moves_twice_its_core_in_a_step_does_not_tunnel_either() {
+    for offset in [0.0, 0.3, 0.6, 0.9] {
+        let spring = SpringCoefficients::new(3.0, 0.2);
+        let mut drop = Drop::new(Vec3::new(-3.0 - offset, 0.0, 0.0), Vec3::new(60.0, 0.0, 0.0), spring);
+        drop.physics.gravity = Vec3::ZERO;
+        drop.wall(Vec3::ZERO, Vec3::new(0.05 * RADIUS, 3.0, 3.0));
+        for frame in 0..120 {
+            drop.step();
+            assert!(drop.centre().x < 0.0, "start {offset}, frame {frame}: went through to {}", drop.centre());
+        }
+    }
+}

@@ -391,3 +391,28 @@ fn a_second_body_of_a_rig_is_like_the_first() {
     assert_eq!(second.palette(), new.palette());
     assert_eq!(second.settings, new.settings);
 }
+
+#[test]
+fn a_skin_deformed_in_batches_is_where_each_vertex_goes_by_itself() {
+    let mut physics = PhysicsWorld::new();
+    let floor = physics.insert_body(RigidBodyBuilder::fixed().translation(Vec3::new(0.0, -1.3, 0.0)));
+    physics.insert_collider(ColliderBuilder::cuboid(50.0, 1.0, 50.0), Some(floor));
+    let mut deformation = DeformationWorld::new();
+    let handle = deformation.insert(two_segments(), &RagdollStart::default(), &mut physics);
+    let [left, right] = deformation.ragdoll(handle).expect("a ragdoll").bodies[..] else { panic!("two bodies") };
+    physics.bodies[right].set_angvel(Vec3::new(0.0, 2.0, 4.0), true);
+    physics.bodies[left].set_angvel(Vec3::new(0.0, 0.0, -4.0), true);
+    let (mut shared, mut touched) = (0, 0);
+    for _ in 0..40 {
+        step(&mut physics, &mut deformation, handle);
+        let body = deformation.get(handle).expect("a body");
+        touched += body.palette().passes.len();
+        for ((batched, rest), skin) in body.positions().iter().zip(&body.rig().mesh.positions).zip(&body.rig().weights)
+        {
+            let alone = body.palette().deform(*rest, skin);
+            assert!(batched.distance(alone) < 1e-5, "{batched} in a batch, {alone} alone");
+            shared += usize::from(skin.weights[1] > 0.0);
+        }
+    }
+    assert!(shared > 1000 && touched > 5, "{shared} shared vertices, {touched} collision passes");
+}
