@@ -5,7 +5,7 @@
 
 use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, find_contacts};
+use super::penetrations::{Contact, find_contacts, find_piercings};
 use super::strength::solve_pass;
 use crate::elastic::ElasticBody;
 
@@ -47,7 +47,7 @@ impl Default for CancelSettings {
             gap_tolerance: 2.0e-3,
             max_passes: 8,
             max_rounds: 6,
-            max_steps: 24,
+            max_steps: 64,
             placement: Placement::Hugging,
         }
     }
@@ -77,20 +77,44 @@ pub fn cancel(
     let softness = settings.softness.unwrap_or(body.rig().softness);
     while report.passes < settings.max_passes {
         let mut contacts = find_contacts(body, parts, near, tolerance);
+        if report.passes > 0 {
+            contacts.extend(find_piercings(body, parts, near, tolerance));
+        }
+        if contacts.is_empty() && report.passes == 0 {
+            contacts = find_piercings(body, parts, near, tolerance);
+        }
         if contacts.is_empty() {
             break;
         }
         // What two passes leave over is small and wedged: it is pushed out on the nearest way, by narrower fields.
         let narrow = (report.passes + 1).saturating_sub(WIDE_PASSES);
-        let reach = (softness * 0.5_f32.powi(narrow as i32)).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
+        let reach = (softness * if narrow > 0 { 0.5 } else { 1.0 }).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
         if narrow > 0 {
-            contacts = contacts.into_iter().map(|contact| contact.by_the_nearest_way(body, parts)).collect();
+            contacts =
+                contacts.into_iter().map(|c| if c.pierced { c } else { c.by_the_nearest_way(body, parts) }).collect();
         }
         let pass = match settings.placement {
-            Placement::Hugging => solve_pass(body, parts, &contacts, reach, size, settings),
+            Placement::Hugging => solve_pass(body, parts, near, &contacts, reach, size, settings),
             Placement::Literal => super::literal::place(body, parts, near, softness),
         };
         report.passes += 1;
+        if std::env::var("DEBUG").is_ok() {
+            for (c, f) in contacts.iter().zip(&pass.fields) {
+                println!(
+                    "  pass {} seg {} part {} n {:.2} depth {:.4} points {} r {:.3} pierced {} d {:.4} steps {}",
+                    report.passes,
+                    c.near.segment,
+                    c.near.part,
+                    c.near.normal,
+                    c.depth(),
+                    c.points.len(),
+                    c.radius,
+                    c.pierced,
+                    f.field.displacement().length(),
+                    pass.steps
+                );
+            }
+        }
         if report.passes == 1 {
             report.contacts = contacts;
         }
@@ -107,4 +131,4 @@ const LEAST_SOFTNESS: f32 = 0.05;
 const MOST_SOFTNESS: f32 = 10.0;
 
 /// Passes with fields of full width.
-const WIDE_PASSES: u32 = 2;
+const WIDE_PASSES: u32 = 1;

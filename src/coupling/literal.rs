@@ -27,7 +27,8 @@ pub fn place(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], sof
                 inner,
                 outer: inner + softness * skin.size,
             };
-            fields.push(SegmentField { segment: near.segment, field: CollisionField::Sphere(field) });
+            let shares = (0..body.motions().len()).map(|s| if s == segment { 1.0 } else { 0.0 }).collect();
+            fields.push(SegmentField { shares, field: CollisionField::Sphere(field) });
         }
     }
     CollisionPass { fields, steps: body.settings.integrator.default_steps() }

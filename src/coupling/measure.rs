@@ -49,10 +49,10 @@ pub fn measure(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &C
 fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BTreeMap<(u32, u32), f32> {
     let mut gaps = BTreeMap::new();
     for contact in &report.contacts {
-        for p in &contact.vertices {
+        for p in &contact.points {
             let part = &parts[p.part];
             let gap = gaps.entry(part.collider.into_raw_parts()).or_insert(f32::INFINITY);
-            let x = body.positions()[p.vertex as usize];
+            let x = p.point.position(body.positions());
             *gap = gap.min(part.exact_distance(x));
         }
     }

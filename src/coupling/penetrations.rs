@@ -7,14 +7,16 @@ use rayon::prelude::*;
 
 use super::contact::{Proximity, penetration};
 use super::obstacle::ObstaclePart;
+use super::piercing::{Height, pierced};
+use super::skin_point::SkinPoint;
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
 
-/// A vertex that has gone into a part.
+/// A point of the skin that has gone into a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Penetration {
-    /// The vertex.
-    pub vertex: u32,
+    /// A vertex, or the deepest point of a triangle that a tip or an edge pierces.
+    pub point: SkinPoint,
     /// Index of the part in the list of obstacles around the body.
     pub part: usize,
     /// How far it must move along the contact's direction.
@@ -26,10 +28,14 @@ pub struct Penetration {
 pub struct Contact {
     /// Segment, deepest part and direction.
     pub near: Proximity,
-    /// The penetrating vertices, deepest first.
-    pub vertices: Vec<Penetration>,
-    /// Depth-weighted mean of the penetrating vertices, moved out to the part's surface.
-    pub point: Vec3,
+    /// The penetrating points of the skin, deepest first.
+    pub points: Vec<Penetration>,
+    /// Depth-weighted mean of these points, moved out to the part's surface.
+    pub centre: Vec3,
+    /// Twice the depth-weighted standard deviation of the points from the centre: how far the contact spreads.
+    pub radius: f32,
+    /// True where the points lie within triangles, whose corners are outside.
+    pub pierced: bool,
 }
 
 /// The contacts of a skin with the parts near it, vertices deeper than `tolerance` only.
@@ -39,13 +45,14 @@ pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximi
     let points: Vec<SegmentPoints> =
         (0..body.skins().len()).into_par_iter().map(|segment| SegmentPoints::of(body, segment)).collect();
     let find = |near: &Proximity| {
-        find_penetrations(body, &points[usize::from(near.segment)], &parts[near.part], near, tolerance)
+        let (points, part) = (&points[usize::from(near.segment)], &parts[near.part]);
+        find_penetrations(body, points, part, near, tolerance)
     };
     let found: Vec<Vec<Penetration>> = near.par_iter().map(find).collect();
     let mut shortest: HashMap<(usize, u32), (f32, usize)> = HashMap::new();
     for (contact, (near, vertices)) in near.iter().zip(&found).enumerate() {
-        for p in vertices {
-            let best = shortest.entry((near.part, p.vertex)).or_insert((p.depth, contact));
+        for p in vertices.iter().filter(|p| p.point.is_vertex()) {
+            let best = shortest.entry((near.part, p.point.vertices[0])).or_insert((p.depth, contact));
             if p.depth < best.0 {
                 *best = (p.depth, contact);
             }
@@ -53,13 +60,54 @@ pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximi
     }
     let mut contacts = Vec::new();
     for (contact, (near, mut vertices)) in near.iter().zip(found).enumerate() {
-        vertices.retain(|p| shortest[&(near.part, p.vertex)].1 == contact);
+        vertices.retain(|p| !p.point.is_vertex() || shortest[&(near.part, p.point.vertices[0])].1 == contact);
         if !vertices.is_empty() {
             contacts.push(Contact::new(body, *near, vertices));
         }
     }
     merged(body, parts, contacts)
 }
+
+/// The contacts of triangles that tips and edges pierce between their corners, each with the shortest way out.
+///
+/// The points of one part that get out nearly the same way make one contact.
+pub fn find_piercings(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
+    let points: Vec<SegmentPoints> =
+        (0..body.skins().len()).into_par_iter().map(|segment| SegmentPoints::of(body, segment)).collect();
+    let find = |near: &Proximity| {
+        find_pierced(body, &points[usize::from(near.segment)], &parts[near.part], near, PIERCED * tolerance)
+    };
+    let found: Vec<Vec<Penetration>> = near.par_iter().map(find).collect();
+    let mut contacts = Vec::new();
+    for (near, mut points) in near.iter().zip(found) {
+        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
+        let mut groups: Vec<(Vec3, Vec<Penetration>)> = Vec::new();
+        for p in points {
+            let x = p.point.position(body.positions());
+            // The way of the whole contact, unless the point lies beside a flank that this way leads along.
+            let along = parts[p.part].exit(x, near.normal, ASKEW * p.depth);
+            let (out, depth) = match along {
+                Some(depth) if depth < ASKEW * p.depth => (near.normal, depth),
+                _ => (parts[p.part].placed.signed_distance(x).1, p.depth),
+            };
+            let p = Penetration { depth, ..p };
+            match groups.iter_mut().find(|(normal, _)| normal.dot(out) > SAME_WAY) {
+                Some((_, group)) => group.push(p),
+                None => groups.push((out, vec![p])),
+            }
+        }
+        for (normal, group) in groups {
+            contacts.push(Contact::new(body, Proximity { normal, ..*near }, group));
+        }
+    }
+    contacts
+}
+
+/// A way out is taken where it is at most this many times as long as the shortest.
+const ASKEW: f32 = 5.0;
+
+/// A triangle counts as pierced from this many times the tolerance of vertices on.
+const PIERCED: f32 = 2.0;
 
 /// Contacts of one segment with parts that touch each other count as one where they push nearly the same way: the fields
 /// of a hundred small parts side by side would only push against each other.
@@ -77,66 +125,66 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
             None => groups.push(contact),
         }
     }
-    groups.into_iter().map(|group| Contact::new(body, group.near, group.vertices)).collect()
+    groups.into_iter().map(|group| Contact::new(body, group.near, group.points)).collect()
 }
 
 /// Cosine between two directions that count as one.
 const SAME_WAY: f32 = 0.82;
 
 impl Contact {
-    fn new(body: &ElasticBody, near: Proximity, mut vertices: Vec<Penetration>) -> Self {
-        vertices.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.vertex.cmp(&b.vertex)));
-        let mut sum = Vec3::ZERO;
-        let mut weight = 0.0;
-        for p in &vertices {
-            sum += (body.positions()[p.vertex as usize] + near.normal * p.depth) * p.depth;
-            weight += p.depth;
-        }
-        Self { near, vertices, point: sum / weight }
+    fn new(body: &ElasticBody, near: Proximity, mut points: Vec<Penetration>) -> Self {
+        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
+        let out = |p: &Penetration| p.point.position(body.positions()) + near.normal * p.depth;
+        let weight: f32 = points.iter().map(|p| p.depth).sum();
+        let centre = points.iter().map(|p| out(p) * p.depth).sum::<Vec3>() / weight;
+        let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * p.depth).sum();
+        let pierced = points.iter().all(|p| !p.point.is_vertex());
+        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced }
     }
 
-    /// Depth of the deepest vertex.
+    /// Depth of the deepest point.
     pub fn depth(&self) -> f32 {
-        self.vertices.first().map_or(0.0, |p| p.depth)
+        self.points.first().map_or(0.0, |p| p.depth)
     }
 
-    /// The parts that the vertices are in, each once.
+    /// The parts that the points are in, each once.
     pub fn parts(&self) -> BTreeSet<usize> {
-        self.vertices.iter().map(|p| p.part).collect()
+        self.points.iter().map(|p| p.part).collect()
     }
 
-    /// The same contact with the direction in which its vertices are nearest to the surface, on the whole.
+    /// The same contact with the direction in which its points are nearest to the surface, on the whole.
     ///
     /// The way towards the segment's axis is right for all of a contact; what it leaves over, wedged between segments that
     /// are pushed different ways, gets out on the shortest way. A direction that leads to the far side of a thin part is
     /// not taken.
     pub fn by_the_nearest_way(self, body: &ElasticBody, parts: &[ObstaclePart]) -> Self {
         let mut sum = Vec3::ZERO;
-        for p in &self.vertices {
-            sum += parts[p.part].way_to_surface(body.positions()[p.vertex as usize]);
+        for p in &self.points {
+            sum += parts[p.part].way_to_surface(p.point.position(body.positions()));
         }
         let Some(normal) = sum.try_normalize().filter(|n| n.dot(self.near.normal) > 0.0) else { return self };
         let near = Proximity { normal, ..self.near };
         let reach = 2.0 * body.skins()[usize::from(near.segment)].size;
         let along = |p: &Penetration| {
-            let depth = parts[p.part].exit(body.positions()[p.vertex as usize], normal, reach)?;
+            let depth = parts[p.part].exit(p.point.position(body.positions()), normal, reach)?;
             Some(Penetration { depth, ..*p })
         };
-        let vertices: Vec<Penetration> = self.vertices.iter().filter_map(along).collect();
-        if vertices.is_empty() { self } else { Self::new(body, near, vertices) }
+        let points: Vec<Penetration> = self.points.iter().filter_map(along).collect();
+        if points.is_empty() { self } else { Self::new(body, near, points) }
     }
 
-    /// Takes over the vertices of another contact, with their depths along this one's direction.
+    /// Takes over the points of another contact, with their depths along this one's direction.
     fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
         let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;
-        let places: HashMap<u32, usize> = self.vertices.iter().enumerate().map(|(i, p)| (p.vertex, i)).collect();
-        for p in &other.vertices {
-            let x = body.positions()[p.vertex as usize];
+        let places: HashMap<[u32; 3], usize> =
+            self.points.iter().enumerate().map(|(i, p)| (p.point.vertices, i)).collect();
+        for p in &other.points {
+            let x = p.point.position(body.positions());
             let depth = parts[p.part].exit(x, self.near.normal, reach).unwrap_or(p.depth);
-            match places.get(&p.vertex).map(|&i| &mut self.vertices[i]) {
+            match places.get(&p.point.vertices).map(|&i| &mut self.points[i]) {
                 Some(own) if own.depth >= depth => {}
                 Some(own) => *own = Penetration { depth, ..*p },
-                None => self.vertices.push(Penetration { depth, ..*p }),
+                None => self.points.push(Penetration { depth, ..*p }),
             }
         }
     }
@@ -191,8 +239,51 @@ fn find_penetrations(
         if let Some(depth) = penetration(part, near, x, facing, reach)
             && depth > tolerance
         {
-            vertices.push(Penetration { vertex, part: near.part, depth });
+            vertices.push(Penetration { point: SkinPoint::vertex(vertex), part: near.part, depth });
         }
     }
     vertices
 }
+
+/// The triangles of one segment that a tip or an edge of the part pierces between their corners.
+fn find_pierced(
+    body: &ElasticBody,
+    points: &SegmentPoints,
+    part: &ObstaclePart,
+    near: &Proximity,
+    tolerance: f32,
+) -> Vec<Penetration> {
+    let skin = &body.skins()[usize::from(near.segment)];
+    let margin = skin.longest_edge * STRETCHED;
+    let around = part.aabb.loosened(margin);
+    let mut found = Vec::new();
+    if !around.intersects(&points.bounds) {
+        return found;
+    }
+    let positions = body.positions();
+    let mut heights: Vec<Option<Height>> = vec![None; positions.len()];
+    let mut any = false;
+    for &v in &skin.vertices {
+        let x = positions[v as usize];
+        if around.contains_local_point(x) {
+            let height = part.placed.signed_distance(x);
+            any |= height.0 < margin;
+            heights[v as usize] = Some(height);
+        }
+    }
+    if !any {
+        return found;
+    }
+    for &t in &skin.triangles {
+        let vertices = body.rig().mesh.triangles[t as usize];
+        let [Some(a), Some(b), Some(c)] = vertices.map(|v| heights[v as usize]) else { continue };
+        let corners = vertices.map(|v| positions[v as usize]);
+        if let Some((point, depth)) = pierced(&part.placed, vertices, corners, [a, b, c], tolerance) {
+            found.push(Penetration { point, part: near.part, depth });
+        }
+    }
+    found
+}
+
+/// Edges are taken for at most this many times as long as at rest.
+const STRETCHED: f32 = 2.0;

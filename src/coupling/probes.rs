@@ -1,29 +1,30 @@
-//! The vertices on which strengths are solved: a few at first, and those that the few left inside.
+//! The points of the skin on which strengths are solved: a few at first, and those that the few left inside.
 
 use rayon::prelude::*;
 
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, Penetration};
+use super::skin_point::SkinPoint;
 use crate::elastic::{CollisionPass, ElasticBody};
 
-/// The few vertices on which the strengths are solved: for each contact the deepest, and some of the others.
+/// The few points on which the strengths are solved: for each contact the deepest, and some of the others.
 pub(super) struct Probes(Vec<Vec<Penetration>>);
 
-/// Where a contact ended: the signed gap (negative inside) and the vertex that decides it.
+/// Where a contact ended: the signed gap (negative inside) and the point that decides it.
 #[derive(Clone, Copy)]
 pub(super) struct Outcome {
     /// Distance from the part, negative inside.
     pub gap: f32,
-    /// The vertex.
-    pub vertex: u32,
+    /// The point of the skin.
+    pub point: SkinPoint,
 }
 
 impl Probes {
     pub fn new(contacts: &[Contact]) -> Self {
         let choose = |contact: &Contact| {
-            let stride = (contact.vertices.len() / PROBES_SPREAD).max(1);
-            let rest = contact.vertices.iter().skip(PROBES_DEEPEST).step_by(stride);
-            contact.vertices.iter().take(PROBES_DEEPEST).chain(rest).copied().collect()
+            let stride = (contact.points.len() / PROBES_SPREAD).max(1);
+            let rest = contact.points.iter().skip(PROBES_DEEPEST).step_by(stride);
+            contact.points.iter().take(PROBES_DEEPEST).chain(rest).copied().collect()
         };
         Self(contacts.iter().map(choose).collect())
     }
@@ -38,7 +39,9 @@ impl Probes {
     ) -> Vec<Outcome> {
         let judge = |(contact, probes): (&Contact, &Vec<Penetration>)| {
             let outcomes = probes.iter().map(|probe| outcome(body, pass, contact, parts, probe));
-            outcomes.fold(Outcome { gap: f32::INFINITY, vertex: 0 }, |a, b| if b.gap < a.gap { b } else { a })
+            outcomes.fold(Outcome { gap: f32::INFINITY, point: SkinPoint::vertex(0) }, |a, b| {
+                if b.gap < a.gap { b } else { a }
+            })
         };
         contacts.par_iter().zip(&self.0).map(judge).collect()
     }
@@ -53,12 +56,12 @@ impl Probes {
         tolerance: f32,
     ) -> bool {
         let missed = |contact: &Contact| {
-            let outcomes = contact.vertices.par_iter().with_min_len(32);
+            let outcomes = contact.points.par_iter().with_min_len(32);
             let mut inside: Vec<(Outcome, Penetration)> = outcomes
                 .map(|p| (outcome(body, pass, contact, parts, p), *p))
                 .filter(|(outcome, _)| outcome.gap < -tolerance)
                 .collect();
-            inside.sort_by(|(a, _), (b, _)| a.gap.total_cmp(&b.gap).then(a.vertex.cmp(&b.vertex)));
+            inside.sort_by(|(a, _), (b, _)| a.gap.total_cmp(&b.gap).then(a.point.vertices.cmp(&b.point.vertices)));
             inside.truncate(PROBES_SPREAD);
             inside
         };
@@ -83,14 +86,13 @@ fn outcome(
     parts: &[ObstaclePart],
     probe: &Penetration,
 ) -> Outcome {
-    let Penetration { vertex, part, .. } = *probe;
-    let start = body.positions()[vertex as usize];
-    let x = pass.flow(start, &body.rig().weights[vertex as usize], body.settings.integrator);
+    let Penetration { point, part, .. } = *probe;
+    let x = point.flow(body, pass);
     let gap = match parts[part].exit(x, contact.near.normal, 2.0 * contact.depth()) {
         Some(depth) => -depth,
         None => parts[part].placed.distance(x).0,
     };
-    Outcome { gap, vertex }
+    Outcome { gap, point }
 }
 
 const PROBES_DEEPEST: usize = 8;

@@ -1,26 +1,30 @@
 //! One pass of hugging fields: where each sits, and how strong it must be so that every contact ends touching.
 
+use rapier3d::parry::bounding_volume::BoundingVolume;
+
 use super::cancel::CancelSettings;
+use super::contact::Proximity;
 use super::gauge::gauge_point;
 use super::magnitude::complementarity;
 use super::obstacle::ObstaclePart;
 use super::penetrations::Contact;
 use super::probes::{Outcome, Probes};
-use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField};
-use crate::field::{HuggingField, Lipschitz, usual_steps};
-use crate::math::Vec3;
+use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField, SegmentSkin};
+use crate::field::{HuggingField, Lipschitz, Patch, usual_steps};
+use crate::math::{Pose, Vec3};
 
 /// The fields of one pass, their strengths solved so that every contact ends touching.
 pub(super) fn solve_pass(
     body: &ElasticBody,
     parts: &[ObstaclePart],
+    near: &[Proximity],
     contacts: &[Contact],
     softness: f32,
     size: f32,
     settings: &CancelSettings,
 ) -> CollisionPass {
     let n = contacts.len();
-    let mut pass = CollisionPass { fields: place_fields(body, parts, contacts, softness), steps: 1 };
+    let mut pass = CollisionPass { fields: place_fields(body, parts, near, contacts, softness), steps: 1 };
     let mut strength: Vec<f32> = contacts.iter().map(Contact::depth).collect();
     // Aim a little outside: what the solve leaves open then does not end inside.
     let aim = 0.5 * settings.depth_tolerance * size;
@@ -54,31 +58,66 @@ pub(super) fn solve_pass(
 /// and the next pass, with new contacts, does better.
 const STRONGEST: f32 = 2.0;
 
+/// What a tip or an edge pierces is pushed out by fields that are narrower by this factor: the displacement is small, and the rest
+/// of the contact is to stay where it is.
+const NARROW: f32 = 0.25;
+
 /// One hugging field a contact, of strength zero.
-fn place_fields(body: &ElasticBody, parts: &[ObstaclePart], contacts: &[Contact], softness: f32) -> Vec<SegmentField> {
+fn place_fields(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    contacts: &[Contact],
+    softness: f32,
+) -> Vec<SegmentField> {
     let field = |(j, contact): (usize, &Contact)| {
-        let segment = contact.near.segment;
-        let others = contacts
-            .iter()
-            .enumerate()
-            .filter(|&(i, other)| i != j && other.near.segment == segment)
-            .map(|(_, other)| (other.point, other.near.normal));
-        let gauge = gauge_point(contact.point, others);
-        let skin = &body.skins()[usize::from(segment)];
-        let width = softness * skin.size;
-        let centre = body.motions()[usize::from(segment)].transform_point(skin.centroid);
+        let others =
+            contacts.iter().enumerate().filter(|&(i, _)| i != j).map(|(_, other)| (other.centre, other.near.normal));
+        let gauge = gauge_point(contact.centre, others);
+        let skin = &body.skins()[usize::from(contact.near.segment)];
+        let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
+        let patch = Patch { centre: contact.centre, radius: contact.radius, width };
         SegmentField {
-            segment,
+            shares: shares(body, parts, contact, near),
             field: CollisionField::Hugging(HuggingField {
                 part: parts[contact.near.part].region(width).clone(),
                 d: Vec3::ZERO,
                 gauge,
                 width,
-                extent: skin.size + centre.distance(gauge),
+                patch,
+                extent: reach_of(body, gauge),
             }),
         }
     };
     contacts.iter().enumerate().map(field).collect()
+}
+
+/// How much of a contact's field each segment takes: all of it, but for segments that the same part, or one that touches
+/// it, pushes another way. They would be carried into the part.
+fn shares(body: &ElasticBody, parts: &[ObstaclePart], contact: &Contact, near: &[Proximity]) -> Box<[f32]> {
+    let mut shares = vec![1.0_f32; body.motions().len()];
+    let own = &parts[contact.near.part];
+    for other in near.iter().filter(|other| other.segment != contact.near.segment) {
+        if other.part == contact.near.part || parts[other.part].aabb.intersects(&own.aabb) {
+            let along = (other.normal.dot(contact.near.normal) - AGAINST) / (ALONG - AGAINST);
+            let along = along.clamp(0.0, 1.0);
+            let share = &mut shares[usize::from(other.segment)];
+            *share = share.min(along * along * (3.0 - 2.0 * along));
+        }
+    }
+    if shares.iter().all(|&share| share == 1.0) { Box::default() } else { shares.into() }
+}
+
+/// Cosines between the ways of two segments out of a part: below the first the one takes nothing of the other's field,
+/// above the second all of it.
+const AGAINST: f32 = -0.5;
+const ALONG: f32 = 0.1;
+
+/// Largest distance of the skin from a point, by the bounds of the segments.
+fn reach_of(body: &ElasticBody, point: Vec3) -> f32 {
+    let reach =
+        |(skin, motion): (&SegmentSkin, &Pose)| motion.transform_point(skin.centroid).distance(point) + skin.size;
+    body.skins().iter().zip(body.motions()).map(reach).fold(0.0, f32::max)
 }
 
 /// Gives each field its displacement, certifies the steps, and weakens all of them together past the step limit.
@@ -89,14 +128,12 @@ fn set_strengths(
     body: &ElasticBody,
     settings: &CancelSettings,
 ) {
-    let mut bounds = vec![0.0; body.motions().len()];
     for ((entry, contact), &strength) in pass.fields.iter_mut().zip(contacts).zip(strength) {
         if let CollisionField::Hugging(field) = &mut entry.field {
             field.d = contact.near.normal * strength;
         }
-        bounds[usize::from(entry.segment)] += entry.field.lipschitz();
     }
-    let bound = bounds.into_iter().fold(0.0, f32::max);
+    let bound = bound_of_sum(&pass.fields);
     let needed = usual_steps(bound, body.settings.integrator.default_steps());
     pass.steps = needed.min(settings.max_steps).max(1);
     if needed > pass.steps {
@@ -107,6 +144,25 @@ fn set_strengths(
             }
         }
     }
+}
+
+/// A bound on the gradient of the sum: at any point only the fields count whose patches reach it.
+fn bound_of_sum(fields: &[SegmentField]) -> f32 {
+    let ball = |field: &CollisionField| match field {
+        CollisionField::Hugging(f) => (f.patch.centre, f.patch.radius + f.patch.width + f.d.length()),
+        CollisionField::Sphere(f) => (f.centre, f.outer + f.d.length()),
+    };
+    let balls: Vec<(Vec3, f32, f32)> = fields
+        .iter()
+        .map(|entry| {
+            let (centre, radius) = ball(&entry.field);
+            (centre, radius, entry.field.lipschitz())
+        })
+        .collect();
+    let around = |&(centre, radius, _): &(Vec3, f32, f32)| {
+        balls.iter().filter(|(c, r, _)| c.distance(centre) < r + radius).map(|(_, _, bound)| bound).sum::<f32>()
+    };
+    balls.iter().map(around).fold(0.0, f32::max)
 }
 
 /// `A[i][j]`: how far field `j` of unit strength moves the deciding vertex of contact `i` along its direction, from the
@@ -121,10 +177,10 @@ fn influence(
     let n = contacts.len();
     let mut matrix = vec![0.0; n * n];
     for (i, contact) in contacts.iter().enumerate() {
-        let vertex = outcome[i].vertex as usize;
-        let x = body.positions()[vertex];
+        let point = outcome[i].point;
+        let x = point.position(body.positions());
         for (j, entry) in pass.fields.iter().enumerate() {
-            let weight = body.rig().weights[vertex].weight_of(entry.segment);
+            let weight = point.share_of(body.rig(), &entry.shares);
             let CollisionField::Hugging(field) = &entry.field else { continue };
             if weight <= 0.0 {
                 continue;

@@ -52,11 +52,10 @@ impl SpringStage {
 }
 
 impl CollisionPass {
-    /// Carries `x` through the pass: its velocity is the sum of the fields, each times the vertex's weight for the
-    /// field's segment.
+    /// Carries `x` through the pass: its velocity is the sum of the fields, each times the vertex's share in it.
     #[inline]
     pub fn flow(&self, x: Vec3, skin: &SkinWeights, integrator: Integrator) -> Vec3 {
-        let weigh = |entry: &'_ SegmentField| skin.weight_of(entry.segment);
+        let weigh = |entry: &'_ SegmentField| skin.share_of(&entry.shares);
         let weighted = self.fields.iter().map(|entry| (weigh(entry), &entry.field));
         let active: Active<'_, CollisionField> = weighted.filter(|(weight, _)| *weight > 0.0).collect();
         if !active.iter().any(|(_, field)| field.reaches(x)) {
@@ -79,5 +78,15 @@ impl SkinWeights {
             }
         }
         sum
+    }
+
+    /// The vertex's share in a field that gives each segment a share: all of it where there are none.
+    #[inline]
+    pub fn share_of(&self, shares: &[f32]) -> f32 {
+        if shares.is_empty() {
+            return 1.0;
+        }
+        let share = |k: usize| self.weights[k] * shares.get(usize::from(self.segments[k])).copied().unwrap_or(0.0);
+        (0..MAX_INFLUENCES).map(share).sum()
     }
 }

@@ -23,7 +23,10 @@ impl CollisionPass {
     pub fn flow_wide(&self, x: [Vec3; LANES], skins: [&SkinWeights; LANES], integrator: Integrator) -> [Vec3; LANES] {
         let mut active: smallvec::SmallVec<[(f32x8, &CollisionField); 8]> = smallvec::SmallVec::new();
         for entry in &self.fields {
-            let weights = skins.map(|skin| skin.weight_of(entry.segment));
+            if !x.iter().any(|&x| entry.field.may_reach(x)) {
+                continue;
+            }
+            let weights = skins.map(|skin| skin.share_of(&entry.shares));
             if weights.iter().any(|&weight| weight > 0.0) {
                 active.push((f32x8::new(weights), &entry.field));
             }

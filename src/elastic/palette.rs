@@ -34,6 +34,15 @@ impl CollisionField {
         }
     }
 
+    /// False where the field surely leaves the point `x` alone: a quick test.
+    #[inline]
+    pub fn may_reach(&self, x: Vec3) -> bool {
+        match self {
+            Self::Hugging(field) => field.patch_reaches(x),
+            Self::Sphere(field) => field.reaches(x),
+        }
+    }
+
     /// The displacement `d` that the field gives its region of constant velocity.
     pub fn displacement(&self) -> Vec3 {
         match self {
@@ -99,17 +108,16 @@ pub struct SegmentEntry {
     pub global: SpringStage,
 }
 
-/// A collision field and the segment whose share of the skin it moves.
+/// A collision field and the skin that it moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SegmentField {
-    /// Segment index.
-    pub segment: u16,
+    /// From 0 to 1 for each segment, how much of the field's velocity its skin takes; none where all skin takes all of it.
+    pub shares: Box<[f32]>,
     /// The field.
     pub field: CollisionField,
 }
 
-/// One pass of penetration cancellation: fields that are added up, each weighted with the vertex's weight for its
-/// segment. Passes are concatenated.
+/// One pass of penetration cancellation: fields that are added up, each times the vertex's share in it. Passes are concatenated.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CollisionPass {
     /// The fields of the pass.

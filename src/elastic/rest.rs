@@ -8,6 +8,10 @@ use crate::math::Vec3;
 pub struct SegmentSkin {
     /// Vertices whose weight for the segment is at least `MEMBER_WEIGHT` (a quarter).
     pub vertices: Vec<u32>,
+    /// Triangles that belong to the segment: no other has a larger share of their corners.
+    pub triangles: Vec<u32>,
+    /// Longest edge of these triangles at rest.
+    pub longest_edge: f32,
     /// Largest distance of these vertices from their mean: the paper's measure of the size of a body (section 4.2).
     pub size: f32,
     /// Mean of these vertices in the rest pose.
@@ -49,8 +53,27 @@ impl SegmentSkin {
             .into_iter()
             .map(|v| SkinSample { position: positions[v as usize], normal: rig.mesh.normals[v as usize] })
             .collect();
-        Self { vertices, size, centroid, samples, axis: axis(rig, index) }
+        let triangles: Vec<u32> = (0..rig.mesh.triangles.len() as u32)
+            .filter(|&t| heaviest_segment(rig, &rig.mesh.triangles[t as usize]) == index as u16)
+            .collect();
+        let longest = |&t: &u32| {
+            let [a, b, c] = rig.mesh.triangles[t as usize].map(|v| positions[v as usize]);
+            a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
+        };
+        let longest_edge = triangles.iter().map(longest).fold(0.0, f32::max).sqrt();
+        Self { vertices, triangles, longest_edge, size, centroid, samples, axis: axis(rig, index) }
     }
+}
+
+/// The segment with the largest share of a triangle's corners; the first of several.
+fn heaviest_segment(rig: &ElasticRig, triangle: &[u32; 3]) -> u16 {
+    let share = |segment: u16| triangle.iter().map(|&v| rig.weights[v as usize].weight_of(segment)).sum::<f32>();
+    let candidates = triangle.iter().flat_map(|&v| rig.weights[v as usize].segments);
+    let better = |best: (f32, u16), segment: u16| {
+        let share = share(segment);
+        if share > best.0 || (share == best.0 && segment < best.1) { (share, segment) } else { best }
+    };
+    candidates.fold((f32::NEG_INFINITY, u16::MAX), better).1
 }
 
 /// The bone, shortened at both ends by the shape's radius.

@@ -1,10 +1,38 @@
-//! The collision field that hugs a convex part: constant in the part itself, faded out with the distance from it.
+//! The collision field that hugs a convex part: constant in the part itself near a contact, faded out with the distance
+//! from the part and with the distance from the contact.
 
 use super::certificate::Lipschitz;
 use super::curl::curl_of_weighted_rotation;
 use super::kernel::CollisionKernel;
 use super::part::PlacedPart;
 use crate::math::Vec3;
+
+/// The place of a contact: a ball that moves along with the part. Beyond it the field fades out sideways.
+///
+/// A floor has no end; without a patch a contact at one foot would lift everything else that stands on the floor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// Centre, with the part in its true place.
+    pub centre: Vec3,
+    /// Radius in metres, not negative; infinite for no patch.
+    pub radius: f32,
+    /// Fade-out width in metres, positive.
+    pub width: f32,
+}
+
+impl Patch {
+    /// The whole space.
+    pub const EVERYWHERE: Self = Self { centre: Vec3::ZERO, radius: f32::INFINITY, width: 1.0 };
+
+    /// `(φ, ∇φ)` of [`CollisionKernel`] at the distance of `x` from the patch.
+    #[inline]
+    pub fn weight(&self, x: Vec3) -> (f32, Vec3) {
+        let away = x - self.centre;
+        let distance = away.length();
+        let (phi, dphi) = CollisionKernel::weight(distance - self.radius, self.width);
+        (phi, if dphi == 0.0 { Vec3::ZERO } else { away * (dphi / distance) })
+    }
+}
 
 /// Carries everything that lies before a convex part, shifted back by `d`, out of the part's true place.
 ///
@@ -21,32 +49,54 @@ pub struct HuggingField {
     pub gauge: Vec3,
     /// Fade-out width `W = s · size`, positive.
     pub width: f32,
+    /// Where on the part the contact is.
+    pub patch: Patch,
     /// Largest distance of the body from the gauge point: it enters the Lipschitz bound only.
     pub extent: f32,
 }
 
 impl HuggingField {
-    /// `u(x, t)`: [`curl_of_weighted_rotation`] with the collision kernel of the distance from the moving part.
+    /// `u(x, t)`: [`curl_of_weighted_rotation`] with the weight `φ = 2 φ_part φ_patch = ½ (k_part k_patch)²`.
     #[inline]
     pub fn velocity(&self, x: Vec3, t: f32) -> Vec3 {
-        let (distance, direction) = self.part.distance(x + self.d * (1.0 - t));
+        let shifted = x + self.d * (1.0 - t);
+        let (patch, patch_slope) = self.patch.weight(shifted);
+        if patch <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let (distance, direction) = self.part.distance(shifted);
         if distance >= self.width {
             return Vec3::ZERO;
         }
         let (phi, dphi) = CollisionKernel::weight(distance, self.width);
-        curl_of_weighted_rotation(phi, direction * dphi, self.d, x - self.gauge)
+        let slope = direction * (2.0 * patch * dphi) + patch_slope * (2.0 * phi);
+        curl_of_weighted_rotation(2.0 * patch * phi, slope, self.d, x - self.gauge)
     }
 
     /// True where the field may move the point `x`, should nothing else move it.
     #[inline]
     pub fn reaches(&self, x: Vec3) -> bool {
-        self.part.distance(x).0 < self.width + self.d.length()
+        self.patch_reaches(x) && self.part.distance(x).0 < self.width + self.d.length()
+    }
+
+    /// True where `x` lies within the patch and its border, wherever the part is on its way.
+    #[inline]
+    pub fn patch_reaches(&self, x: Vec3) -> bool {
+        x.distance(self.patch.centre) < self.patch.radius + self.patch.width + self.d.length()
     }
 }
 
 impl Lipschitz for HuggingField {
+    /// [`collision_bound`] with the slope and the curvature of a product of weights:
+    /// `|∇φ| ≤ S (1/W + 1/V)`, `|∇∇φ| ≤ C (1/W² + 1/V²) + 4 S² / (W V)` for the widths `W` and `V`.
     fn lipschitz(&self) -> f32 {
-        collision_bound(self.d.length(), self.width, self.extent)
+        let (across, along) =
+            (1.0 / self.width, if self.patch.radius.is_finite() { 1.0 / self.patch.width } else { 0.0 });
+        let slope = CollisionKernel::MAX_SLOPE * (across + along);
+        let curvature = CollisionKernel::MAX_CURVATURE * (across * across + along * along)
+            + 4.0 * CollisionKernel::MAX_SLOPE * CollisionKernel::MAX_SLOPE * across * along;
+        let patch = self.patch.radius + self.patch.width + self.patch.centre.distance(self.gauge) + self.d.length();
+        self.d.length() * (4.0 * slope + 2.0 * curvature * self.extent.min(patch))
     }
 }
 

@@ -118,6 +118,10 @@ impl HuggingField {
         let frame = self.part.rotation().transpose();
         let offset = self.d * (1.0 - t) - self.part.pose().translation;
         let shifted = x + WideVec::splat(offset);
+        let patch = self.patch_wide(x, t);
+        if patch.0.simd_le(f32x8::ZERO).all() {
+            return WideVec::ZERO;
+        }
         let axis = |row: usize| shifted.dot_all(frame.row(row));
         let local = WideVec { x: axis(0), y: axis(1), z: axis(2) };
         let away = self.outside_wide(local);
@@ -130,12 +134,29 @@ impl HuggingField {
         }
         let k = f32x8::ONE - y * y * y * (f32x8::splat(4.0) - f32x8::splat(3.0) * y);
         let slope = k * (f32x8::splat(-12.0) * y * y * (f32x8::ONE - y)) * width;
-        let grad = away.scaled(slope / length.max(f32x8::splat(f32::MIN_POSITIVE)));
-        // The products with ∇φ are taken in the part's frame, where it was found.
+        let grad = away.scaled(slope * patch.0 / length.max(f32x8::splat(f32::MIN_POSITIVE)));
+        // The products with the slope towards the part are taken in the part's frame, where it was found.
         let d = frame * self.d;
         let b = local - WideVec::splat(frame * (offset + self.gauge));
-        let along = k * k + grad.dot(b);
-        WideVec::splat(self.d).scaled(along) - (x - WideVec::splat(self.gauge)).scaled(grad.dot_all(d))
+        let from_gauge = x - WideVec::splat(self.gauge);
+        let patch_grad = patch.1.scaled(k * k);
+        let along = k * k * patch.0 + grad.dot(b) + patch_grad.dot(from_gauge);
+        WideVec::splat(self.d).scaled(along) - from_gauge.scaled(grad.dot_all(d) + patch_grad.dot_all(self.d))
+    }
+
+    /// `k²` of the patch, and its slope over two.
+    #[inline]
+    fn patch_wide(&self, x: WideVec, t: f32) -> (f32x8, WideVec) {
+        if !self.patch.radius.is_finite() {
+            return (f32x8::ONE, WideVec::ZERO);
+        }
+        let away = x + WideVec::splat(self.d * (1.0 - t) - self.patch.centre);
+        let distance = away.dot(away).sqrt();
+        let inverse = f32x8::splat(1.0 / self.patch.width);
+        let y = ((distance - f32x8::splat(self.patch.radius)) * inverse).max(f32x8::ZERO).min(f32x8::ONE);
+        let k = f32x8::ONE - y * y * y * (f32x8::splat(4.0) - f32x8::splat(3.0) * y);
+        let slope = k * (f32x8::splat(-12.0) * y * y * (f32x8::ONE - y)) * inverse;
+        (k * k, away.scaled(slope / distance.max(f32x8::splat(f32::MIN_POSITIVE))))
     }
 
     /// Eight points of the part's frame minus their nearest points of the part before rounding.

@@ -5,7 +5,8 @@
 //! segments    rotation | translation | local stage | global stage       a stage: first field, count, steps
 //! springs     p, r_o | q
 //! passes      first field, count, steps
-//! collisions  kind, segment, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape
+//! collisions  kind, first share, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape | patch, its width
+//! shares      of four segments a row                                 none where all skin takes all
 //! triangles   plane | corner | corner | corner                          of each convex hull in use, once
 //! ```
 //!
@@ -22,7 +23,7 @@ use crate::math::{Pose, Vec3};
 pub(super) const HEADER: u32 = 2;
 pub(super) const SEGMENT: u32 = 4;
 pub(super) const SPRING: u32 = 2;
-pub(super) const COLLISION: u32 = 7;
+pub(super) const COLLISION: u32 = 8;
 pub(super) const TRIANGLE: u32 = 4;
 
 /// Integration rules; anything else is the Runge-Kutta rule.
@@ -53,7 +54,10 @@ pub(super) fn pack(palette: &Palette, epsilon: f32, origin: Vec3, rows: &mut Vec
     let first_pass = first_spring + SPRING * stages().map(|stage| count(stage.fields.len())).sum::<u32>();
     let first_collision = first_pass + count(palette.passes.len());
     let collisions = palette.passes.iter().map(|pass| count(pass.fields.len())).sum::<u32>();
-    let mut hulls = Hulls { next: first_collision + COLLISION * collisions, packed: Vec::new() };
+    let first_share = first_collision + COLLISION * collisions;
+    let fields = || palette.passes.iter().flat_map(|pass| &pass.fields);
+    let shares = fields().map(|entry| share_rows(&entry.shares)).sum::<u32>();
+    let mut hulls = Hulls { next: first_share + shares, packed: Vec::new() };
 
     rows.clear();
     let integrator = match palette.integrator {
@@ -84,8 +88,14 @@ pub(super) fn pack(palette: &Palette, epsilon: f32, origin: Vec3, rows: &mut Vec
         rows.push([next, count(pass.fields.len()), pass.steps, 0]);
         next += COLLISION * count(pass.fields.len());
     }
-    for entry in palette.passes.iter().flat_map(|pass| &pass.fields) {
-        rows.extend(collision_rows(u32::from(entry.segment), &entry.field, origin, &mut hulls));
+    let mut next = first_share;
+    for entry in fields() {
+        let first = if entry.shares.is_empty() { 0 } else { next };
+        next += share_rows(&entry.shares);
+        rows.extend(collision_rows(first, &entry.field, origin, &mut hulls));
+    }
+    for four in fields().flat_map(|entry| entry.shares.chunks(4)) {
+        rows.push(std::array::from_fn(|i| four.get(i).copied().unwrap_or(0.0).to_bits()));
     }
     for hull in hulls.packed {
         for (&(normal, offset), corners) in hull.0.planes().iter().zip(hull.0.triangles()) {
@@ -95,8 +105,13 @@ pub(super) fn pack(palette: &Palette, epsilon: f32, origin: Vec3, rows: &mut Vec
     }
 }
 
+/// Rows that the shares of a field take.
+fn share_rows(shares: &[f32]) -> u32 {
+    count(shares.len().div_ceil(4))
+}
+
 fn collision_rows<'a>(
-    segment: u32,
+    first_share: u32,
     field: &'a CollisionField,
     origin: Vec3,
     hulls: &mut Hulls<'a>,
@@ -104,7 +119,7 @@ fn collision_rows<'a>(
     match field {
         CollisionField::Sphere(field) => {
             let mut rows = [Row::default(); COLLISION as usize];
-            rows[0] = [FIELD_SPHERE, segment, SHAPE_POINT, 0];
+            rows[0] = [FIELD_SPHERE, first_share, SHAPE_POINT, 0];
             rows[1] = real(field.d, field.outer);
             rows[2] = real(field.centre - origin, field.inner);
             rows
@@ -129,13 +144,14 @@ fn collision_rows<'a>(
             };
             let [rotation, translation] = pose_rows(*field.part.pose(), origin);
             [
-                [FIELD_HUGGING, segment, shape, 0],
+                [FIELD_HUGGING, first_share, shape, 0],
                 real(field.d, field.width),
                 real(field.gauge - origin, field.part.part().rounding),
                 rotation,
-                translation,
+                [translation[0], translation[1], translation[2], field.patch.width.to_bits()],
                 one,
                 two,
+                real(field.patch.centre - origin, field.patch.radius.min(f32::MAX)),
             ]
         }
     }

@@ -1,7 +1,7 @@
 //! Random fields with a sampler of points in their reach, as boxed functions: one list for all properties.
 
 use fastrand::Rng;
-use pliant::field::{ConvexPart, HuggingField, Lipschitz, PartShape, PlacedPart, SphereField, SpringField};
+use pliant::field::{ConvexPart, HuggingField, Lipschitz, PartShape, Patch, PlacedPart, SphereField, SpringField};
 use pliant::math::Vec3;
 
 use crate::random::{SHAPES, between, direction, in_cube, part, pose};
@@ -84,7 +84,22 @@ pub fn hugging_field(rng: &mut Rng, kind: usize) -> HuggingField {
     let part = PlacedPart::new(part(rng, kind), pose(rng, 1.0));
     let width = between(rng, 0.7, 2.0);
     let gauge = part.pose().translation + in_cube(rng, 0.7);
-    HuggingField { part, d: direction(rng) * between(rng, 0.1, 1.0), gauge, width, extent: 1.5 }
+    HuggingField {
+        part,
+        d: direction(rng) * between(rng, 0.1, 1.0),
+        gauge,
+        width,
+        patch: patch(rng, gauge),
+        extent: 1.5,
+    }
+}
+
+/// Every second one is everywhere.
+pub fn patch(rng: &mut Rng, near: Vec3) -> Patch {
+    if rng.bool() {
+        return Patch::EVERYWHERE;
+    }
+    Patch { centre: near + in_cube(rng, 0.3), radius: between(rng, 0.0, 0.5), width: between(rng, 0.5, 1.5) }
 }
 
 pub fn hugging(rng: &mut Rng, kind: usize) -> Sample {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::samples::patch;
 use pliant::field::{ConvexHull, ConvexPart, HuggingField, LANES, PartShape, PlacedPart, SpringField, WideVec};
 use pliant::math::{Pose, Vec3};
 
@@ -29,11 +30,13 @@ fn eight_points_in_a_collision_field_of_any_shape_move_as_each_alone() {
         for rounding in [0.0, 0.15] {
             let turn = random(&mut rng, 1.5);
             let pose = Pose::new(random(&mut rng, 1.0), turn);
+            let gauge = random(&mut rng, 1.0);
             let field = HuggingField {
                 part: PlacedPart::new(ConvexPart { shape: shape.clone(), rounding }, pose),
                 d: random(&mut rng, 0.2),
-                gauge: random(&mut rng, 1.0),
+                gauge,
                 width: 0.8,
+                patch: patch(&mut rng, gauge),
                 extent: 2.0,
             };
             for _ in 0..200 {

@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 use pliant::elastic::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SkinWeights, SpringStage};
-use pliant::field::{ConvexPart, HuggingField, Integrator, PartShape, PlacedPart, SphereField, SpringField};
+use pliant::field::{ConvexPart, HuggingField, Integrator, PartShape, Patch, PlacedPart, SphereField, SpringField};
 use pliant::math::{Pose, Quat, Vec3};
 
 use crate::icosphere::icosphere;
@@ -59,6 +59,10 @@ fn press(rng: &mut Rng, kind: usize, middle: Vec3) -> HuggingField {
         d: -outward * between(rng, 0.1, 0.4),
         gauge: contact,
         width: between(rng, 0.8, 2.0),
+        patch: match rng.bool() {
+            true => Patch::EVERYWHERE,
+            false => Patch { centre: contact, radius: between(rng, 0.0, 0.4), width: between(rng, 0.4, 1.0) },
+        },
         extent: 2.0,
     }
 }
@@ -88,7 +92,8 @@ pub fn random_palette(rng: &mut Rng, segments: usize, integrator: Integrator) ->
             } else {
                 CollisionField::Hugging(press(rng, kind, place.translation))
             };
-            SegmentField { segment: rng.usize(0..segments) as u16, field }
+            let shares = if i == 3 { Box::default() } else { (0..segments).map(|_| rng.f32()).collect() };
+            SegmentField { shares, field }
         });
         CollisionPass { fields: fields.collect(), steps: 8 }
     });
@@ -100,6 +105,6 @@ pub fn single_part(rng: &mut Rng, kind: usize) -> Palette {
     let stage = SpringStage { fields: Vec::new(), steps: 6 };
     let entry = SegmentEntry { motion: pose(rng, 1.0), local: stage.clone(), global: stage };
     let field = CollisionField::Hugging(press(rng, kind, entry.motion.translation));
-    let passes = vec![CollisionPass { fields: vec![SegmentField { segment: 0, field }], steps: 12 }];
+    let passes = vec![CollisionPass { fields: vec![SegmentField { shares: [1.0].into(), field }], steps: 12 }];
     Palette { segments: vec![entry], passes, integrator: Integrator::Midpoint }
 }

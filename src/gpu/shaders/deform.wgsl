@@ -41,7 +41,7 @@ fn collide(start: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
 fn pass_flow(at: u32, x: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
     let flow = Flow(false, palette[at].x, palette[at].y, skin);
     for (var i = 0u; i < flow.count; i++) {
-        if weight_of(skin, palette[flow.first + i * COLLISION].y) > 0.0 {
+        if share_of(skin, palette[flow.first + i * COLLISION].y) > 0.0 {
             return path_line(x, palette[at].z, flow);
         }
     }

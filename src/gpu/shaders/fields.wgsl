@@ -43,12 +43,23 @@ fn hugging_velocity(field: u32, x: vec3<f32>, t: f32) -> vec3<f32> {
     let gauge = reals(field + 2u).xyz;
     let rotation = reals(field + 3u);
     let inverse = vec4<f32>(-rotation.xyz, rotation.w);
-    let local = rotate(inverse, x + d.xyz * (1.0 - t) - reals(field + 4u).xyz);
-    let distance = part_distance(field, local);
+    let translation = reals(field + 4u);
+    let shifted = x + d.xyz * (1.0 - t);
+    let patch_ball = reals(field + 7u);
+    let away_from_patch = shifted - patch_ball.xyz;
+    let from_patch = length(away_from_patch);
+    let beside = collision_weight(from_patch - patch_ball.w, translation.w);
+    if beside.x <= 0.0 {
+        return vec3<f32>(0.0);
+    }
+    let distance = part_distance(field, rotate(inverse, shifted - translation.xyz));
     if distance.value >= d.w {
         return vec3<f32>(0.0);
     }
     let weight = collision_weight(distance.value, d.w);
-    let grad = rotate(rotation, distance.gradient) * weight.y;
-    return curl_of_weighted_rotation(weight.x, grad, d.xyz, x - gauge);
+    var grad = rotate(rotation, distance.gradient) * (2.0 * beside.x * weight.y);
+    if beside.y != 0.0 {
+        grad += away_from_patch * (2.0 * weight.x * beside.y / from_patch);
+    }
+    return curl_of_weighted_rotation(2.0 * beside.x * weight.x, grad, d.xyz, x - gauge);
 }

@@ -15,7 +15,7 @@ fn velocity(flow: Flow, x: vec3<f32>, t: f32) -> vec3<f32> {
             sum += spring_velocity(flow.first + i * SPRING, x, t);
         } else {
             let field = flow.first + i * COLLISION;
-            let weight = weight_of(flow.skin, palette[field].y);
+            let weight = share_of(flow.skin, palette[field].y);
             if weight > 0.0 {
                 sum += collision_velocity(field, x, t) * weight;
             }
