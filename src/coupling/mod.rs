@@ -8,6 +8,7 @@ mod gauge;
 mod literal;
 mod magnitude;
 mod obstacle;
+mod pairs;
 mod penetrations;
 mod piercing;
 mod probes;
@@ -19,6 +20,10 @@ pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
 pub use magnitude::complementarity;
 pub use obstacle::{LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, convex_parts, decompose};
+pub use pairs::{
+    HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
+    segment_bounds,
+};
 pub use penetrations::{Contact, Penetration, find_contacts, find_piercings};
 pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};
 pub use skin_point::SkinPoint;
