@@ -1,0 +1,241 @@
+//! The solve of one island: Gauss-Seidel over points of contact, on private copies of the velocities.
+
+use std::ops::Range;
+
+use super::rebound::{BOOST, Rebound};
+use super::sampled_spring::SampledSpring;
+use super::velocities::BodyVelocity;
+use super::{FoundationContact, FoundationPoint};
+use crate::math::{Mat2, Vec2, Vec3};
+
+/// The bodies of an island and the points between them.
+#[derive(Default)]
+pub struct Island {
+    /// The bodies.
+    pub bodies: Vec<BodyVelocity>,
+    rows: Vec<Row>,
+    blocks: Vec<Block>,
+}
+
+/// One point.
+struct Row {
+    a: Moved,
+    b: Option<Moved>,
+    position: Vec3,
+    normal: Vec3,
+    tangents: [Vec3; 2],
+    /// Inverse of the effective mass along the normal.
+    response: f32,
+    /// Effective mass across it.
+    slide_mass: Mat2,
+    weight: f32,
+    friction: f32,
+    drive: f32,
+    drag: f32,
+    pressure: f32,
+    grip: Vec2,
+}
+
+/// A body of the island, and whether the point pushes it: not where the other one dominates it.
+#[derive(Clone, Copy)]
+struct Moved {
+    index: usize,
+    pushed: bool,
+}
+
+/// One contact: its points are released together.
+struct Block {
+    rows: Range<usize>,
+    depth: f32,
+    spring: SampledSpring,
+    rebound: Rebound,
+    /// Factor on the spring's push.
+    factor: f32,
+    /// How much a unit of `factor` changes the opening speed.
+    gain: f32,
+}
+
+impl Island {
+    /// Adds a contact between bodies of the island; `places` are those of each point's two bodies.
+    pub fn add(
+        &mut self,
+        contact: &FoundationContact,
+        places: &[(usize, Option<usize>)],
+        spring: SampledSpring,
+        rebound: Rebound,
+    ) {
+        let start = self.rows.len();
+        for ((point, weight), &(a, b)) in contact.weights().zip(places) {
+            let row = self.row(point, weight, a, b);
+            self.rows.push(row);
+        }
+        self.blocks.push(Block {
+            rows: start..self.rows.len(),
+            depth: contact.depth(),
+            spring,
+            rebound,
+            factor: 1.0,
+            gain: 0.0,
+        });
+    }
+
+    fn row(&self, point: &FoundationPoint, weight: f32, a: usize, b: Option<usize>) -> Row {
+        let dominance = |index: usize| self.bodies[index].dominance;
+        let moved = |index: usize, other: Option<usize>| {
+            let pushed = other.is_none_or(|other| dominance(index) <= dominance(other));
+            Moved { index, pushed: pushed && self.bodies[index].is_movable() }
+        };
+        let (t, s) = point.normal.any_orthonormal_pair();
+        let mut row = Row {
+            a: moved(a, b),
+            b: b.map(|b| moved(b, Some(a))),
+            position: point.position,
+            normal: point.normal,
+            tangents: [t, s],
+            response: 0.0,
+            slide_mass: Mat2::ZERO,
+            weight,
+            friction: point.friction,
+            drive: 0.0,
+            drag: 0.0,
+            pressure: 0.0,
+            grip: Vec2::ZERO,
+        };
+        row.response = self.response(&row, point.normal, point.normal);
+        let across = self.response(&row, t, s);
+        let slide =
+            Mat2::from_cols(Vec2::new(self.response(&row, t, t), across), Vec2::new(across, self.response(&row, s, s)));
+        if slide.determinant() > f32::MIN_POSITIVE {
+            row.slide_mass = slide.inverse();
+        }
+        row
+    }
+
+    fn response(&self, row: &Row, n: Vec3, m: Vec3) -> f32 {
+        let of = |moved: Moved| match moved.pushed {
+            true => self.bodies[moved.index].response(row.position, n, m),
+            false => 0.0,
+        };
+        of(row.a) + row.b.map_or(0.0, of)
+    }
+
+    /// Solves the island.
+    pub fn solve(&mut self, sweeps: u32, dt: f32) {
+        self.prepare(dt);
+        for sweep in 0..sweeps.max(1) {
+            for block in 0..self.blocks.len() {
+                self.release(block, dt);
+                let rows = self.blocks[block].rows.clone();
+                // There and back in turn: whoever comes first holds more, and that would twist the body.
+                let order = |i: usize| if sweep % 2 == 0 { rows.start + i } else { rows.end - 1 - i };
+                for i in 0..rows.len() {
+                    self.press(order(i), self.blocks[block].factor);
+                }
+                for i in 0..rows.len() {
+                    self.rub(order(i));
+                }
+            }
+        }
+    }
+
+    /// Springs that are stable with what they push, and what they do to the opening speed.
+    fn prepare(&mut self, dt: f32) {
+        // Sum over a body's points of stiffness times response: no eigenvalue of the whole island is larger than the
+        // sum of two such sums.
+        let mut loads = vec![0.0_f32; self.bodies.len()];
+        for block in &self.blocks {
+            for row in &self.rows[block.rows.clone()] {
+                for moved in [Some(row.a), row.b].into_iter().flatten().filter(|moved| moved.pushed) {
+                    let response = self.bodies[moved.index].response(row.position, row.normal, row.normal);
+                    loads[moved.index] += block.spring.push * row.weight * response;
+                }
+            }
+        }
+        for index in 0..self.blocks.len() {
+            let rows = self.blocks[index].rows.clone();
+            let load = |row: &Row| loads[row.a.index] + row.b.map_or(0.0, |b| loads[b.index]);
+            let bound = self.rows[rows.clone()].iter().map(load).fold(0.0, f32::max);
+            let spring = self.blocks[index].spring.weakened(bound, dt);
+            let response = self.centre_response(rows.clone());
+            let block = &mut self.blocks[index];
+            block.spring = spring;
+            block.gain = spring.push * block.depth * response / (1.0 + spring.drag * response);
+            for row in &mut self.rows[rows] {
+                row.drive = spring.push * block.depth * row.weight;
+                row.drag = spring.drag * row.weight;
+            }
+        }
+    }
+
+    /// How much a unit impulse, spread over the points by their weights, changes the opening speed.
+    fn centre_response(&self, rows: Range<usize>) -> f32 {
+        let rows = &self.rows[rows];
+        let mut response = 0.0;
+        for side in [|row: &Row| Some(row.a), |row: &Row| row.b] {
+            for run in rows.chunk_by(|p, q| side(p).map(|m| m.index) == side(q).map(|m| m.index)) {
+                let Some(moved) = run.first().and_then(side).filter(|moved| moved.pushed) else { continue };
+                let weight: f32 = run.iter().map(|row| row.weight).sum();
+                let position = run.iter().map(|row| row.position * row.weight).sum::<Vec3>() / weight;
+                let normal = run.iter().map(|row| row.normal * row.weight).sum::<Vec3>() / weight;
+                response += weight * weight * self.bodies[moved.index].response(position, normal, normal);
+            }
+        }
+        response
+    }
+
+    /// Velocity of `body` relative to `other` at a point.
+    fn relative(&self, row: &Row) -> Vec3 {
+        self.bodies[row.a.index].at(row.position) - row.b.map_or(Vec3::ZERO, |b| self.bodies[b.index].at(row.position))
+    }
+
+    fn apply(&mut self, row: usize, impulse: Vec3) {
+        let Row { a, b, position, .. } = self.rows[row];
+        if a.pushed {
+            self.bodies[a.index].push(position, impulse);
+        }
+        if let Some(b) = b.filter(|b| b.pushed) {
+            self.bodies[b.index].push(position, -impulse);
+        }
+    }
+
+    /// Weakens the push of a contact that would open too fast; one that ends in this step opens as fast as it should.
+    fn release(&mut self, index: usize, dt: f32) {
+        let block = &self.blocks[index];
+        if block.gain <= f32::MIN_POSITIVE {
+            return;
+        }
+        let rows = &self.rows[block.rows.clone()];
+        let opening: f32 = rows.iter().map(|row| row.weight * self.relative(row).dot(row.normal)).sum();
+        let by_spring = opening + (1.0 - block.factor) * block.gain;
+        let ends = by_spring > 0.0 && block.depth <= dt * by_spring;
+        let target = match block.rebound.bounces && ends {
+            true => block.rebound.limit.min(BOOST * by_spring),
+            false => block.rebound.limit.min(by_spring),
+        };
+        let factor = block.factor + (target - opening) / block.gain;
+        self.blocks[index].factor = factor.max(0.0);
+    }
+
+    /// Spring and damper, `λ = push d − drag v` with the velocity `v` after the impulse; it never pulls.
+    fn press(&mut self, index: usize, factor: f32) {
+        let v = self.relative(&self.rows[index]).dot(self.rows[index].normal);
+        let row = &mut self.rows[index];
+        let change = (factor * row.drive - row.drag * v - row.pressure) / (1.0 + row.drag * row.response);
+        let pressure = (row.pressure + change).max(0.0);
+        let impulse = row.normal * (pressure - row.pressure);
+        row.pressure = pressure;
+        self.apply(index, impulse);
+    }
+
+    /// Coulomb friction: stops the sliding as far as the pressure allows.
+    fn rub(&mut self, index: usize) {
+        let v = self.relative(&self.rows[index]);
+        let row = &mut self.rows[index];
+        let [t, s] = row.tangents;
+        let slide = Vec2::new(v.dot(t), v.dot(s));
+        let grip = (row.grip - row.slide_mass * slide).clamp_length_max(row.friction * row.pressure);
+        let change = grip - row.grip;
+        row.grip = grip;
+        self.apply(index, t * change.x + s * change.y);
+    }
+}
