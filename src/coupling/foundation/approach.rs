@@ -1,6 +1,6 @@
 //! How fast contacts close, and the memory of it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
@@ -45,7 +45,7 @@ impl Approach {
 }
 
 /// The speed at which the contact closes at its centre: there a rolling body neither closes nor opens it.
-fn closing(contact: &FoundationContact, bodies: &RigidBodySet) -> f32 {
+pub(super) fn closing(contact: &FoundationContact, bodies: &RigidBodySet) -> f32 {
     let velocity = |handle: RigidBodyHandle, x| bodies.get(handle).map_or(Vec3::ZERO, |body| body.velocity_at_point(x));
     let speed = |(point, weight): (&FoundationPoint, f32)| {
         let other = point.other.map_or(Vec3::ZERO, |other| velocity(other, point.position));
@@ -85,6 +85,11 @@ pub fn remember_skin_contacts(
     step: &StepSize,
     bodies: &RigidBodySet,
 ) -> Vec<FoundationContact> {
+    let touching: BTreeSet<(u16, PartId)> = contacts.iter().flat_map(|(_, keys)| keys).copied().collect();
+    for (_, memory) in memories.iter_mut().filter(|(key, _)| !touching.contains(key)) {
+        // The contact is over: the next one begins anew, however soon.
+        memory.approach = Approach::default();
+    }
     let remember = |(mut contact, keys): (FoundationContact, Vec<(u16, PartId)>)| {
         let now = Approach::speed_now(&contact, step.gravity, bodies);
         let period = period(&contact, step.dt);

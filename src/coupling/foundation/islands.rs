@@ -65,8 +65,7 @@ pub fn push_back(
             })
         };
         let places: Vec<_> = places.iter().map(|&(a, b)| (local_place(a), b.map(&mut local_place))).collect();
-        let rebound = Rebound::new(contact, materials[index].restitution, step, drift, bodies);
-        island.add(contact, &places, springs[index], rebound);
+        island.add(contact, &places, Rebound::new(contact, &materials[index], step, drift, bodies));
     }
     islands.par_iter_mut().for_each(|(island, _)| island.solve(settings.sweeps, step.dt));
     for body in islands.iter().flat_map(|(island, _)| &island.bodies) {

@@ -57,13 +57,7 @@ struct Block {
 
 impl Island {
     /// Adds a contact between bodies of the island; `places` are those of each point's two bodies.
-    pub fn add(
-        &mut self,
-        contact: &FoundationContact,
-        places: &[(usize, Option<usize>)],
-        spring: SampledSpring,
-        rebound: Rebound,
-    ) {
+    pub fn add(&mut self, contact: &FoundationContact, places: &[(usize, Option<usize>)], rebound: Rebound) {
         let start = self.rows.len();
         for ((point, weight), &(a, b)) in contact.weights().zip(places) {
             let row = self.row(point, weight, a, b);
@@ -72,7 +66,7 @@ impl Island {
         self.blocks.push(Block {
             rows: start..self.rows.len(),
             depth: contact.depth(),
-            spring,
+            spring: rebound.spring,
             rebound,
             factor: 1.0,
             gain: 0.0,
