@@ -23,8 +23,8 @@ mod measure;
 mod ragdoll;
 
 pub use foundation::{
-    Approach, ContactMaterial, ElasticSide, FoundationContact, FoundationPoint, FoundationSettings, PairApproaches,
-    PairPoint, Sleepers, StepSize, pair_contacts, push_back, remember_pair_contacts, remember_skin_contacts,
+    Approach, ContactMaterial, ElasticSide, FoundationContact, FoundationMemory, FoundationPoint, FoundationSettings,
+    PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts, remember_skin_contacts,
     skin_contacts,
 };
 pub use measure::{INSIDE, PenetrationFigures, measure};

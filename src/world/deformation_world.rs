@@ -11,7 +11,7 @@ use rapier3d::pipeline::PhysicsWorld;
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::{
-    CancelSettings, ContactMemories, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart, Sleepers,
+    CancelSettings, ContactMemories, FoundationMemory, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
@@ -119,7 +119,7 @@ pub struct DeformationWorld {
     pub(super) entries: Arena<Entry>,
     pub(super) parts: PartCache,
     pub(super) own: BTreeSet<(u32, u32)>,
-    pub(super) sleepers: Sleepers,
+    pub(super) foundation: FoundationMemory,
     pub(super) report: StepReport,
 }
 

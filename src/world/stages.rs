@@ -146,7 +146,7 @@ impl DeformationWorld {
             let found = skin_contacts(side, body, ragdoll, &encounter.parts, &encounter.near, rapier.colliders);
             contacts.extend(remember_skin_contacts(found, &mut entry.memories, &step, rapier.bodies));
         }
-        push_back(&contacts, &step, self.settings.foundation, &mut self.sleepers, rapier.bodies);
+        push_back(&contacts, &step, self.settings.foundation, &mut self.foundation, rapier.bodies);
     }
 
     /// Local and global spring stages on every vertex.

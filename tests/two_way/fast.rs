@@ -31,6 +31,7 @@ fn plates_bars_and_wires_stop_fast_balls_and_give_back_no_more_than_they_got() {
                 let contact = ContactSettings::bouncing(4.0, 0.5, 0.4);
                 let ball = scene.ball(contact, Vec3::new(-3.0 - phase, 0.0, 0.0), Vec3::new(speed, 0.0, 0.0));
                 let rigid = scene.rigid(ball);
+                scene.physics.step();
                 let start = energy(&scene);
                 for frame in 0..120 {
                     scene.step();
@@ -77,6 +78,7 @@ fn a_free_bar_that_spins_into_a_ball_shares_its_energy() {
         ColliderBuilder::cuboid(2.0, 0.2, 0.05).mass(2.0),
         RigidBodyBuilder::dynamic().angvel(Vec3::new(0.0, -8.0, 0.0)),
     );
+    scene.physics.step();
     let start = energy(&scene);
     for frame in 0..300 {
         scene.step();

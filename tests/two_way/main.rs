@@ -2,6 +2,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod debug;
 mod fast;
 mod momentum;
 mod pairs;

@@ -28,11 +28,13 @@ fn room(gravity: Vec3) -> Scene {
         let body = scene.crate_at(0.25, mass, Vec3::new(x, -1.5, -1.2));
         scene.physics.bodies[body].set_angvel(Vec3::new(1.0, 2.0, x), true);
     }
+    // Rapier makes the masses in its first step; nothing touches yet.
+    scene.physics.step();
     scene
 }
 
 /// Momentum and angular momentum about the origin.
-fn momenta(scene: &Scene) -> (Vec3, Vec3) {
+pub fn momenta(scene: &Scene) -> (Vec3, Vec3) {
     let of = |(_, body): (_, &RigidBody)| {
         let momentum = body.linvel() * body.mass();
         let spin = body.mass_properties().effective_world_inv_inertia.inverse() * body.angvel();

@@ -1,8 +1,8 @@
 //! Two elastic bodies against each other, islands, and the same bits for any number of threads.
 
 use pliant::coupling::{
-    ElasticSide, FoundationContact, FoundationSettings, PairApproaches, PairPoint, Sleepers, StepSize, pair_contacts,
-    push_back, remember_pair_contacts,
+    ElasticSide, FoundationContact, FoundationMemory, FoundationSettings, PairApproaches, PairPoint, StepSize,
+    pair_contacts, push_back, remember_pair_contacts,
 };
 use pliant::elastic::ContactSettings;
 use pliant::math::Vec3;
@@ -34,12 +34,12 @@ fn lens(scene: &Scene, a: RigidBodyHandle, b: RigidBodyHandle) -> Vec<PairPoint>
 struct Pairs {
     scene: Scene,
     approaches: PairApproaches,
-    sleepers: Sleepers,
+    memory: FoundationMemory,
 }
 
 impl Pairs {
     fn new(scene: Scene) -> Self {
-        Self { scene, approaches: PairApproaches::new(), sleepers: Sleepers::default() }
+        Self { scene, approaches: PairApproaches::new(), memory: FoundationMemory::default() }
     }
 
     fn side(&self, ball: ElasticBodyHandle) -> ElasticSide {
@@ -63,7 +63,7 @@ impl Pairs {
         };
         let bodies = &mut self.scene.physics.bodies;
         remember_pair_contacts(&mut contacts, &mut self.approaches, &step, bodies);
-        push_back(&contacts, &step, FoundationSettings::default(), &mut self.sleepers, bodies);
+        push_back(&contacts, &step, FoundationSettings::default(), &mut self.memory, bodies);
     }
 }
 

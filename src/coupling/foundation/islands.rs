@@ -8,12 +8,13 @@ use std::collections::HashMap;
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rayon::prelude::*;
 
+use super::reactions::Reactions;
 use super::rebound::Rebound;
 use super::share::materials;
-use super::sleepers::{Rest, Sleepers};
+use super::sleepers::Rest;
 use super::solve::Island;
 use super::velocities::{BodyVelocity, StepSize, Velocities, mean_of_substeps};
-use super::{FoundationContact, FoundationSettings};
+use super::{FoundationContact, FoundationMemory, FoundationSettings};
 
 /// Gives the bodies the impulses that push them out over rapier's next step: changes their velocities in `bodies`.
 ///
@@ -22,7 +23,7 @@ pub fn push_back(
     contacts: &[FoundationContact],
     step: &StepSize,
     settings: FoundationSettings,
-    sleepers: &mut Sleepers,
+    memory: &mut FoundationMemory,
     bodies: &mut RigidBodySet,
 ) {
     if step.dt <= 0.0 {
@@ -30,13 +31,13 @@ pub fn push_back(
     }
     let materials = materials(contacts);
     let springs: Vec<_> = materials.iter().map(|material| material.sampled(step.dt)).collect();
-    sleepers.wake(contacts, &springs, step, bodies);
+    memory.sleepers.wake(contacts, &springs, step, bodies);
     let drift = mean_of_substeps(step.substeps.max(1));
     let mut velocities = Velocities::default();
     let mut joined = Joined::default();
     let mut places = Vec::with_capacity(contacts.len());
     for contact in contacts {
-        places.push(place(contact, step, bodies, &mut velocities));
+        places.push(place(contact, &memory.reactions, step, bodies, &mut velocities));
         joined.grow(velocities.entries.len());
         if let Some(places) = places.last().and_then(Option::as_ref) {
             let movable = |&index: &usize| velocities.entries[index].is_movable();
@@ -68,14 +69,15 @@ pub fn push_back(
         island.add(contact, &places, Rebound::new(contact, &materials[index], step, drift, bodies));
     }
     islands.par_iter_mut().for_each(|(island, _)| island.solve(settings.sweeps, step.dt));
-    for body in islands.iter().flat_map(|(island, _)| &island.bodies) {
-        body.write(bodies);
-    }
+    let solved = || islands.iter().flat_map(|(island, _)| &island.bodies);
+    solved().for_each(|body| body.write(bodies));
+    memory.reactions.note(solved());
 }
 
 /// The indices of the two bodies of each point; `None` where rapier leaves all of them asleep, or one is not there.
 fn place(
     contact: &FoundationContact,
+    reactions: &Reactions,
     step: &StepSize,
     bodies: &RigidBodySet,
     velocities: &mut Velocities,
@@ -86,7 +88,10 @@ fn place(
         return None;
     }
     let mut index = |handle: RigidBodyHandle| {
-        velocities.index(handle, || BodyVelocity::read(handle, rest(handle) == Rest::Asleep, step, bodies))
+        velocities.index(handle, || {
+            let support = reactions.support(handle, step, bodies);
+            BodyVelocity::read(handle, rest(handle) == Rest::Asleep, support, step, bodies)
+        })
     };
     contact
         .points

@@ -9,12 +9,14 @@
 //! - [`skin_contacts`], [`pair_contacts`]: contacts from penetrating points;
 //! - [`Approach`], `rebound`: how fast a contact closed, and how fast it may open: restitution;
 //! - `solve`, `islands`: the implicit solve, island by island;
-//! - [`Sleepers`]: what rapier has put to sleep stays asleep while its load stays the same.
+//! - `reactions`: what rapier answers: bodies that stand on something, or carry something;
+//! - `sleepers`: what rapier has put to sleep stays asleep while its load stays the same.
 
 mod approach;
 mod build;
 mod islands;
 mod material;
+mod reactions;
 mod rebound;
 mod sampled_spring;
 mod share;
@@ -32,7 +34,6 @@ pub use approach::{Approach, PairApproaches, remember_pair_contacts, remember_sk
 pub use build::{PairPoint, pair_contacts, skin_contacts};
 pub use islands::push_back;
 pub use material::ContactMaterial;
-pub use sleepers::Sleepers;
 pub use velocities::StepSize;
 
 /// A point of skin inside something.
@@ -88,6 +89,11 @@ impl FoundationContact {
         self.points.iter().map(|point| point.depth).fold(0.0, f32::max)
     }
 
+    /// Mean depth, weighted as the force is: what the spring is loaded with.
+    pub fn mean_depth(&self) -> f32 {
+        self.weights().map(|(point, weight)| point.depth * weight).sum()
+    }
+
     /// The part of the contact's force that each point carries: as the square of its depth, so that nothing jumps when
     /// points come and go. The sum is 1.
     pub fn weights(&self) -> impl Iterator<Item = (&FoundationPoint, f32)> {
@@ -104,6 +110,13 @@ impl FoundationContact {
     pub fn normal(&self) -> Vec3 {
         self.weights().map(|(point, weight)| point.normal * weight).sum::<Vec3>().normalize_or_zero()
     }
+}
+
+/// What the foundation remembers from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct FoundationMemory {
+    sleepers: sleepers::Sleepers,
+    reactions: reactions::Reactions,
 }
 
 /// How thoroughly the foundation is solved.

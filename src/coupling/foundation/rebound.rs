@@ -42,14 +42,16 @@ impl Rebound {
         let bounces = leaving > 0.0;
         let mut damped = *material;
         if bounces {
-            let closing = closing(contact, bodies);
             let undamped = ContactMaterial { damping_ratio: 0.0, ..*material }.sampled(step.dt);
-            let stored = undamped.push / (material.mass * step.dt) * depth * depth;
-            let surplus = closing * closing + stored - needed;
+            let load = contact.mean_depth();
+            let push = undamped.push / material.mass * load;
+            // Impulses come in steps: half of the one that is due belongs to the velocity at this moment.
+            let opening = 0.5 * push - closing(contact, bodies);
+            let surplus = opening * opening + push * load / step.dt - needed;
             let fully = material.sampled(step.dt);
             // What full damping would take: v² before, and after the drag.
             let left = 1.0 / (1.0 + fully.drag / material.mass);
-            let taken = closing * closing * (1.0 - left * left);
+            let taken = opening * opening * (1.0 - left * left);
             damped.damping_ratio *= if taken > 0.0 { (surplus / taken).clamp(0.0, 1.0) } else { 1.0 };
         }
         let limit = needed.sqrt() - drift * pull.relative * step.dt;

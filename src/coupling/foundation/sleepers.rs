@@ -52,7 +52,7 @@ impl Sleepers {
         let mut loads: BTreeMap<(u32, u32), Vec3> = BTreeMap::new();
         let mut disturbed: Vec<RigidBodyHandle> = Vec::new();
         for (contact, spring) in contacts.iter().zip(springs) {
-            let push = spring.push * contact.depth();
+            let push = spring.push * contact.mean_depth();
             for (point, weight) in contact.weights() {
                 let impulse = point.normal * (push * weight);
                 *loads.entry(point.body.into_raw_parts()).or_default() += impulse;

@@ -24,14 +24,16 @@ struct Row {
     position: Vec3,
     normal: Vec3,
     tangents: [Vec3; 2],
-    /// Inverse of the effective mass along the normal.
+    /// Inverse of the effective mass along the normal, in 1/kg.
     response: f32,
     /// Effective mass across it.
     slide_mass: Mat2,
     weight: f32,
     friction: f32,
-    drive: f32,
     drag: f32,
+    /// Impulse against rocking.
+    rocking: f32,
+    /// All of the impulse along the normal.
     pressure: f32,
     grip: Vec2,
 }
@@ -47,12 +49,15 @@ struct Moved {
 struct Block {
     rows: Range<usize>,
     depth: f32,
+    load: f32,
     spring: SampledSpring,
     rebound: Rebound,
     /// Factor on the spring's push.
     factor: f32,
-    /// How much a unit of `factor` changes the opening speed.
-    gain: f32,
+    /// Impulse of the damper at the contact's centre.
+    damping: f32,
+    /// How much a unit impulse at the centre changes the opening speed: by the guess, and where nothing holds the bodies.
+    response: [f32; 2],
 }
 
 impl Island {
@@ -66,10 +71,12 @@ impl Island {
         self.blocks.push(Block {
             rows: start..self.rows.len(),
             depth: contact.depth(),
+            load: contact.mean_depth(),
             spring: rebound.spring,
             rebound,
             factor: 1.0,
-            gain: 0.0,
+            damping: 0.0,
+            response: [0.0; 2],
         });
     }
 
@@ -90,8 +97,8 @@ impl Island {
             slide_mass: Mat2::ZERO,
             weight,
             friction: point.friction,
-            drive: 0.0,
             drag: 0.0,
+            rocking: 0.0,
             pressure: 0.0,
             grip: Vec2::ZERO,
         };
@@ -118,12 +125,16 @@ impl Island {
         self.prepare(dt);
         for sweep in 0..sweeps.max(1) {
             for block in 0..self.blocks.len() {
-                self.release(block, dt);
+                let shared = self.release(block, dt);
                 let rows = self.blocks[block].rows.clone();
                 // There and back in turn: whoever comes first holds more, and that would twist the body.
                 let order = |i: usize| if sweep % 2 == 0 { rows.start + i } else { rows.end - 1 - i };
                 for i in 0..rows.len() {
-                    self.press(order(i), self.blocks[block].factor);
+                    self.press(order(i), shared);
+                }
+                let opening = self.opening(block);
+                for i in 0..rows.len() {
+                    self.steady(order(i), opening, shared);
                 }
                 for i in 0..rows.len() {
                     self.rub(order(i));
@@ -140,7 +151,8 @@ impl Island {
         for block in &self.blocks {
             for row in &self.rows[block.rows.clone()] {
                 for moved in [Some(row.a), row.b].into_iter().flatten().filter(|moved| moved.pushed) {
-                    let response = self.bodies[moved.index].response(row.position, row.normal, row.normal);
+                    let body = &self.bodies[moved.index];
+                    let response = body.response(row.position, row.normal, row.normal) / (1.0 - body.support.held);
                     loads[moved.index] += block.spring.push * row.weight * response;
                 }
             }
@@ -151,27 +163,28 @@ impl Island {
             let bound = self.rows[rows.clone()].iter().map(load).fold(0.0, f32::max);
             let spring = self.blocks[index].spring.weakened(bound, dt);
             let response = self.centre_response(rows.clone());
-            let block = &mut self.blocks[index];
-            block.spring = spring;
-            block.gain = spring.push * block.depth * response / (1.0 + spring.drag * response);
+            self.blocks[index].spring = spring;
+            self.blocks[index].response = response;
             for row in &mut self.rows[rows] {
-                row.drive = spring.push * block.depth * row.weight;
-                row.drag = spring.drag * row.weight;
+                row.drag = ROCKING * spring.drag * row.weight;
             }
         }
     }
 
     /// How much a unit impulse, spread over the points by their weights, changes the opening speed.
-    fn centre_response(&self, rows: Range<usize>) -> f32 {
+    fn centre_response(&self, rows: Range<usize>) -> [f32; 2] {
         let rows = &self.rows[rows];
-        let mut response = 0.0;
+        let mut response = [0.0; 2];
         for side in [|row: &Row| Some(row.a), |row: &Row| row.b] {
             for run in rows.chunk_by(|p, q| side(p).map(|m| m.index) == side(q).map(|m| m.index)) {
                 let Some(moved) = run.first().and_then(side).filter(|moved| moved.pushed) else { continue };
                 let weight: f32 = run.iter().map(|row| row.weight).sum();
                 let position = run.iter().map(|row| row.position * row.weight).sum::<Vec3>() / weight;
                 let normal = run.iter().map(|row| row.normal * row.weight).sum::<Vec3>() / weight;
-                response += weight * weight * self.bodies[moved.index].response(position, normal, normal);
+                let body = &self.bodies[moved.index];
+                let part = weight * weight * body.response(position, normal, normal);
+                response[0] += part;
+                response[1] += part / (1.0 - body.support.held);
             }
         }
         response
@@ -192,33 +205,56 @@ impl Island {
         }
     }
 
-    /// Weakens the push of a contact that would open too fast; one that ends in this step opens as fast as it should.
-    fn release(&mut self, index: usize, dt: f32) {
-        let block = &self.blocks[index];
-        if block.gain <= f32::MIN_POSITIVE {
-            return;
+    /// Damps the contact at its centre, weakens the push of one that would open too fast, and lets one that ends in this
+    /// step open as fast as it should. Returns the impulse that its points share.
+    fn release(&mut self, index: usize, dt: f32) -> f32 {
+        let opening = self.opening(index);
+        let block = &mut self.blocks[index];
+        let (push, drag) = (block.spring.push * block.load, block.spring.drag);
+        let [response, free] = block.response;
+        let softening = 1.0 + drag * response;
+        let change = (-drag * opening - block.damping) / softening;
+        block.damping += change;
+        let opening = opening + change * response;
+        // How much a unit of the factor changes the opening speed.
+        let gain = push * response / softening;
+        if gain > f32::MIN_POSITIVE {
+            let by_spring = opening + (1.0 - block.factor) * gain;
+            let ends = by_spring > 0.0 && block.depth <= dt * by_spring;
+            let target = match block.rebound.bounces && ends {
+                true => block.rebound.limit.min(BOOST * by_spring),
+                false => block.rebound.limit.min(by_spring),
+            };
+            // What is held may be let go: no more than a free body needs.
+            let most = 1.0 + (target - by_spring).max(0.0) / (push * free / (1.0 + drag * free));
+            block.factor = (block.factor + (target - opening) / gain).clamp(0.0, most);
         }
-        let rows = &self.rows[block.rows.clone()];
-        let opening: f32 = rows.iter().map(|row| row.weight * self.relative(row).dot(row.normal)).sum();
-        let by_spring = opening + (1.0 - block.factor) * block.gain;
-        let ends = by_spring > 0.0 && block.depth <= dt * by_spring;
-        let target = match block.rebound.bounces && ends {
-            true => block.rebound.limit.min(BOOST * by_spring),
-            false => block.rebound.limit.min(by_spring),
-        };
-        let factor = block.factor + (target - opening) / block.gain;
-        self.blocks[index].factor = factor.max(0.0);
+        block.factor * push + block.damping
     }
 
-    /// Spring and damper, `λ = push d − drag v` with the velocity `v` after the impulse; it never pulls.
-    fn press(&mut self, index: usize, factor: f32) {
-        let v = self.relative(&self.rows[index]).dot(self.rows[index].normal);
+    /// The speed at which a contact opens, at its centre.
+    fn opening(&self, block: usize) -> f32 {
+        let rows = &self.rows[self.blocks[block].rows.clone()];
+        rows.iter().map(|row| row.weight * self.relative(row).dot(row.normal)).sum()
+    }
+
+    /// The point's part of the contact's impulse.
+    fn press(&mut self, index: usize, shared: f32) {
         let row = &mut self.rows[index];
-        let change = (factor * row.drive - row.drag * v - row.pressure) / (1.0 + row.drag * row.response);
-        let pressure = (row.pressure + change).max(0.0);
+        // It never pulls.
+        let pressure = (row.weight * shared + row.rocking).max(0.0);
         let impulse = row.normal * (pressure - row.pressure);
         row.pressure = pressure;
         self.apply(index, impulse);
+    }
+
+    /// The damper of one point against what it moves otherwise than the contact's centre: `λ = −drag (v − V)` with the
+    /// velocity `v` after the impulse.
+    fn steady(&mut self, index: usize, opening: f32, shared: f32) {
+        let v = self.relative(&self.rows[index]).dot(self.rows[index].normal) - opening;
+        let row = &mut self.rows[index];
+        row.rocking += (-row.drag * v - row.rocking) / (1.0 + row.drag * row.response);
+        self.press(index, shared);
     }
 
     /// Coulomb friction: stops the sliding as far as the pressure allows.
@@ -233,3 +269,7 @@ impl Island {
         self.apply(index, t * change.x + s * change.y);
     }
 }
+
+/// The part of a contact's damping that acts at each point for itself, and so against rocking and rolling; the rest acts
+/// at its centre. A ball that rolls at some metres a second loses a few hundredths of its acceleration to it.
+const ROCKING: f32 = 0.25;

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
+use super::reactions::Support;
 use crate::math::{Mat3, Vec3};
 
 /// Velocity and inverse inertia of one rigid body, in world space.
@@ -28,18 +29,28 @@ pub struct BodyVelocity {
     pub inverse_mass: Vec3,
     /// Inverse inertia; zero for what cannot be turned.
     pub inverse_inertia: Mat3,
+    /// How rapier supports it: its inverse mass and inertia are less by what is held.
+    pub support: Support,
     /// Rapier's dominance group: of two bodies the lower one alone is pushed.
     pub dominance: i16,
 }
 
 impl BodyVelocity {
     /// Reads a body. `held` bodies are not pushed, whatever they are; `None` where there is no such body.
-    pub fn read(handle: RigidBodyHandle, held: bool, step: &StepSize, bodies: &RigidBodySet) -> Option<Self> {
+    pub fn read(
+        handle: RigidBodyHandle,
+        held: bool,
+        support: Support,
+        step: &StepSize,
+        bodies: &RigidBodySet,
+    ) -> Option<Self> {
         let body = bodies.get(handle)?;
         let properties = body.mass_properties();
         let movable = body.is_dynamic() && body.is_enabled() && !held;
         let inertia = properties.effective_world_inv_inertia;
-        let gravity = if movable { step.gravity * body.gravity_scale() } else { Vec3::ZERO };
+        let gravity =
+            if movable { step.gravity * (body.gravity_scale() * (1.0 - support.carried)) } else { Vec3::ZERO };
+        let yielding = 1.0 - support.held;
         let substeps = step.substeps.max(1) + body.additional_solver_iterations();
         let drift = if held { Vec3::ZERO } else { body.linvel() + gravity * (step.dt * mean_of_substeps(substeps)) };
         Some(Self {
@@ -49,12 +60,13 @@ impl BodyVelocity {
             drift,
             angular: if held { Vec3::ZERO } else { body.angvel() },
             centre: body.center_of_mass(),
-            inverse_mass: if movable { properties.effective_inv_mass } else { Vec3::ZERO },
+            inverse_mass: if movable { properties.effective_inv_mass * yielding } else { Vec3::ZERO },
             inverse_inertia: if movable {
-                Mat3::from_cols(inertia * Vec3::X, inertia * Vec3::Y, inertia * Vec3::Z)
+                Mat3::from_cols(inertia * Vec3::X, inertia * Vec3::Y, inertia * Vec3::Z) * yielding
             } else {
                 Mat3::ZERO
             },
+            support,
             dominance: body.effective_dominance_group(),
         })
     }
@@ -84,19 +96,30 @@ impl BodyVelocity {
         m.dot(self.inverse_mass * n) + arm.cross(m).dot(self.inverse_inertia * arm.cross(n))
     }
 
+    /// The change of velocity that the impulses make in rapier.
+    pub fn given(&self) -> Vec3 {
+        self.change / (1.0 - self.support.held)
+    }
+
+    /// The velocity that rapier's body gets.
+    pub fn written(&self) -> Vec3 {
+        self.start.0 + self.given()
+    }
+
     /// Gives rapier's body the impulses.
     pub fn write(&self, bodies: &mut RigidBodySet) {
-        let linear = self.start.0 + self.change;
-        if !self.is_movable() || !linear.is_finite() || !self.angular.is_finite() {
+        let linear = self.written();
+        let angular = self.start.1 + (self.angular - self.start.1) / (1.0 - self.support.held);
+        if !self.is_movable() || !linear.is_finite() || !angular.is_finite() {
             return;
         }
         if let Some(body) = bodies.get_mut(self.handle)
-            && (linear, self.angular) != self.start
+            && (linear, angular) != self.start
         {
             // Setting without waking would pile up velocity in a body that rapier does not move.
             let wake = body.is_sleeping();
             body.set_linvel(linear, wake);
-            body.set_angvel(self.angular, wake);
+            body.set_angvel(angular, wake);
         }
     }
 }
