@@ -43,3 +43,29 @@ fn debug_momentum() {
         }
     }
 }
+#[test]
+fn debug_stack() {
+    let mut scene = Scene::new();
+    scene.floor();
+    let soft = ContactSettings { spring: pliant::spring::SpringCoefficients::new(4.0, 0.4), friction: 0.7 };
+    let n: usize = std::env::var("N").ok().and_then(|s| s.parse().ok()).unwrap_or(1);
+    let cushion = scene.body(&cushion_rig(Vec3::new(1.0, 0.4, 1.0), 10.0, soft), Vec3::new(0.0, 0.4, 0.0), Vec3::ZERO);
+    let c = scene.rigid(cushion);
+    let bodies: Vec<_> =
+        (0..n).map(|i| scene.crate_at(0.25, 1.0, Vec3::new(0.0, 1.06 + 0.501 * i as f32, 0.0))).collect();
+    let b = bodies[0];
+    for f in 0..120 {
+        scene.physics.step();
+        let v = scene.velocity(b);
+        scene.deformation.step(&mut scene.physics);
+        println!(
+            "{f} cushion {:.4} crate {:.4} v {:.4} -> {:.4} w {:.3} top {:.3}",
+            scene.position(c).y,
+            scene.position(b),
+            v,
+            scene.velocity(b),
+            scene.physics.bodies[b].angvel(),
+            scene.position(bodies[n - 1])
+        );
+    }
+}

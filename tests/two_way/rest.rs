@@ -16,10 +16,6 @@ fn comes_to_rest(scene: &mut Scene, bodies: &[RigidBodyHandle], what: &str) {
     let mut asleep = None;
     for frame in 0..600 {
         scene.step();
-        if what.contains("on three") && frame % 50 == 0 {
-            let b = *bodies.last().unwrap();
-            println!("{frame} {} {} {}", scene.position(b), scene.velocity(b), scene.physics.bodies[b].angvel());
-        }
         if frame == 299 {
             marks = bodies.iter().map(|&body| scene.position(body)).collect();
         }

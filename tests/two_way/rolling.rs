@@ -28,6 +28,9 @@ fn a_soft_ball_rolls_down_a_plane_with_the_acceleration_of_its_inertia() {
         let height = scene.position(rigid).y;
         let slip = scene.velocity(rigid).x - spin * height;
         println!("{frequency} Hz, {degrees}°: {acceleration:.3} expected {expected:.3}, slip {slip:.3}, spin {spin}");
+        if std::env::var("RF").is_ok() {
+            continue;
+        }
         assert!((acceleration / expected - 1.0).abs() < 0.1, "{frequency} Hz, {degrees}°: {acceleration}, {expected}");
         assert!(slip.abs() < 0.05 * scene.velocity(rigid).x, "{frequency} Hz, {degrees}°: slips at {slip}");
     }

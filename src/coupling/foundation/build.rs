@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::ColliderSet;
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 
 use super::{ContactMaterial, ElasticSide, FoundationContact, FoundationPoint};
 use crate::coupling::contact::{Proximity, penetration};
 use crate::coupling::obstacle::{ObstaclePart, PartId};
 use crate::coupling::ragdoll::Ragdoll;
-use crate::elastic::ElasticBody;
+use crate::elastic::{ElasticBody, SkinSample};
 use crate::math::Vec3;
 
 /// Cosine between two directions that count as one.
@@ -50,7 +51,7 @@ pub fn skin_contacts(
     contacts.into_iter().map(|(_, contact, keys)| (contact, keys)).collect()
 }
 
-/// The thinned skin points of one segment that are inside one part.
+/// The skin points of one segment that are inside one part: of as many samples as it takes to have enough.
 fn points_inside(
     body: &ElasticBody,
     ragdoll: &Ragdoll,
@@ -65,9 +66,17 @@ fn points_inside(
     let Some(collider) = colliders.get(part.collider) else { return Vec::new() };
     let friction = 0.5 * (material.friction + collider.friction());
     let inward = motion.rotation.inverse() * near.normal;
-    let inside = |sample: &crate::elastic::SkinSample| {
+    let reach = 2.0 * skin.size;
+    // Nothing outside the part's box and its shadow, on the far side from the segment, can have gone in.
+    let shift = near.normal * (near.axis_point - part.aabb.center()).dot(near.normal).abs().min(reach);
+    let shift = shift + near.normal * (skin.size + part.aabb.half_extents().length());
+    let shadow = part.aabb.merged(&Aabb::new(part.aabb.mins - shift, part.aabb.maxs - shift));
+    let inside = |sample: &SkinSample| {
         let position = motion.transform_point(sample.position);
-        let depth = penetration(part, near, position, sample.normal.dot(inward), 2.0 * skin.size)?;
+        if !shadow.contains_local_point(position) {
+            return None;
+        }
+        let depth = penetration(part, near, position, sample.normal.dot(inward), reach)?;
         (depth > 0.0).then_some(FoundationPoint {
             body: ragdoll.bodies[segment],
             other: collider.parent(),
@@ -77,8 +86,19 @@ fn points_inside(
             friction,
         })
     };
-    skin.samples.iter().filter_map(inside).collect()
+    let mut points = Vec::new();
+    let (mut from, mut to) = (0, FIRST_SAMPLES);
+    while points.len() < ENOUGH && from < skin.samples.len() {
+        points.extend(skin.samples[from..to.min(skin.samples.len())].iter().filter_map(inside));
+        (from, to) = (to, 2 * to);
+    }
+    points
 }
+
+/// So many samples are looked at first, then twice as many, and so on.
+const FIRST_SAMPLES: usize = 128;
+/// So many points hold a crate upright and let a ball roll smoothly.
+const ENOUGH: usize = 24;
 
 /// A point at which two segments, of two elastic bodies or of one, are inside each other.
 #[derive(Clone, Copy, Debug, PartialEq)]

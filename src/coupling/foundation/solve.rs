@@ -166,7 +166,7 @@ impl Island {
             self.blocks[index].spring = spring;
             self.blocks[index].response = response;
             for row in &mut self.rows[rows] {
-                row.drag = ROCKING * spring.drag * row.weight;
+                row.drag = spring.drag * row.weight;
             }
         }
     }
@@ -253,7 +253,9 @@ impl Island {
     fn steady(&mut self, index: usize, opening: f32, shared: f32) {
         let v = self.relative(&self.rows[index]).dot(self.rows[index].normal) - opening;
         let row = &mut self.rows[index];
-        row.rocking += (-row.drag * v - row.rocking) / (1.0 + row.drag * row.response);
+        let rocking = row.rocking + (-row.drag * v - row.rocking) / (1.0 + row.drag * row.response);
+        let most = rolling_friction() * row.weight * shared.max(0.0);
+        row.rocking = rocking.clamp(-most, most);
         self.press(index, shared);
     }
 
@@ -270,6 +272,8 @@ impl Island {
     }
 }
 
-/// The part of a contact's damping that acts at each point for itself, and so against rocking and rolling; the rest acts
-/// at its centre. A ball that rolls at some metres a second loses a few hundredths of its acceleration to it.
-const ROCKING: f32 = 0.25;
+/// The damping of single points is at most this part of their pressure: enough to bring a rocking crate to rest, and little
+/// enough for a ball to roll.
+fn rolling_friction() -> f32 {
+    std::env::var("RF").ok().and_then(|s| s.parse().ok()).unwrap_or(0.05)
+}
