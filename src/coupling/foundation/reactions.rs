@@ -22,6 +22,8 @@ use crate::math::Vec3;
 pub struct Support {
     /// The part of an impulse that is taken back, from 0 to [`MOST_HELD`].
     pub held: f32,
+    /// The same of a turning impulse.
+    pub held_turn: f32,
     /// The part of gravity that is taken back, from 0 to 1.
     pub carried: f32,
 }
@@ -32,8 +34,8 @@ pub const MOST_HELD: f32 = 0.95;
 /// What was done to a body in the last step.
 #[derive(Clone, Copy, Debug)]
 struct Action {
-    written: Vec3,
-    change: Vec3,
+    written: [Vec3; 2],
+    given: [Vec3; 2],
     support: Support,
 }
 
@@ -49,17 +51,17 @@ impl Reactions {
         let known = |body: &RigidBody| {
             let action = self.actions.get(&handle)?;
             let gravity = step.gravity * (body.gravity_scale() * step.dt);
-            let reaction = body.linvel() - action.written - gravity;
-            let square = action.change.length_squared();
-            if !reaction.is_finite() || square < LEAST * LEAST {
-                return Some(Support::default());
-            }
-            let held = (-reaction.dot(action.change) / square).clamp(0.0, MOST_HELD);
-            let rest = reaction + action.change * held;
-            let carried = -rest.dot(gravity) / gravity.length_squared().max(f32::MIN_POSITIVE);
+            let [linear, angular] = action.given;
+            let reaction = body.linvel() - action.written[0] - gravity;
+            let held = part_held(reaction, linear, LEAST);
+            let held_turn = part_held(body.angvel() - action.written[1], angular, LEAST_TURN);
+            let carried = -(reaction + linear * held).dot(gravity) / gravity.length_squared().max(f32::MIN_POSITIVE);
+            let carried = if carried.is_finite() { carried.clamp(0.0, 1.0) } else { 0.0 };
+            let before = action.support;
             Some(Support {
-                held: 0.5 * (held + action.support.held),
-                carried: 0.5 * (carried.clamp(0.0, 1.0) + action.support.carried),
+                held: 0.5 * (held + before.held),
+                held_turn: 0.5 * (held_turn + before.held_turn),
+                carried: 0.5 * (carried + before.carried),
             })
         };
         bodies.get(handle).and_then(known).unwrap_or_default()
@@ -68,12 +70,23 @@ impl Reactions {
     /// Notes what the bodies of this step were given.
     pub(super) fn note<'a>(&mut self, given: impl Iterator<Item = &'a BodyVelocity>) {
         let action = |body: &BodyVelocity| {
-            let action = Action { written: body.written(), change: body.given(), support: body.support };
+            let action = Action { written: body.written(), given: body.given(), support: body.support };
             (body.handle, action)
         };
         self.actions = given.filter(|body| body.is_movable()).map(action).collect();
     }
 }
 
-/// Changes of velocity below this, in m/s, tell nothing.
+/// The part of a given change of velocity that a reaction takes back; changes below `least` tell nothing.
+fn part_held(reaction: Vec3, given: Vec3, least: f32) -> f32 {
+    let square = given.length_squared();
+    if !reaction.is_finite() || square < least * least {
+        return 0.0;
+    }
+    (-reaction.dot(given) / square).clamp(0.0, MOST_HELD)
+}
+
+/// In m/s.
 const LEAST: f32 = 0.01;
+/// In rad/s.
+const LEAST_TURN: f32 = 0.02;

@@ -152,7 +152,7 @@ impl Island {
             for row in &self.rows[block.rows.clone()] {
                 for moved in [Some(row.a), row.b].into_iter().flatten().filter(|moved| moved.pushed) {
                     let body = &self.bodies[moved.index];
-                    let response = body.response(row.position, row.normal, row.normal) / (1.0 - body.support.held);
+                    let response = body.free_response(row.position, row.normal);
                     loads[moved.index] += block.spring.push * row.weight * response;
                 }
             }
@@ -182,9 +182,8 @@ impl Island {
                 let position = run.iter().map(|row| row.position * row.weight).sum::<Vec3>() / weight;
                 let normal = run.iter().map(|row| row.normal * row.weight).sum::<Vec3>() / weight;
                 let body = &self.bodies[moved.index];
-                let part = weight * weight * body.response(position, normal, normal);
-                response[0] += part;
-                response[1] += part / (1.0 - body.support.held);
+                response[0] += weight * weight * body.response(position, normal, normal);
+                response[1] += weight * weight * body.free_response(position, normal);
             }
         }
         response

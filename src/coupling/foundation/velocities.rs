@@ -50,7 +50,6 @@ impl BodyVelocity {
         let inertia = properties.effective_world_inv_inertia;
         let gravity =
             if movable { step.gravity * (body.gravity_scale() * (1.0 - support.carried)) } else { Vec3::ZERO };
-        let yielding = 1.0 - support.held;
         let substeps = step.substeps.max(1) + body.additional_solver_iterations();
         let drift = if held { Vec3::ZERO } else { body.linvel() + gravity * (step.dt * mean_of_substeps(substeps)) };
         Some(Self {
@@ -60,9 +59,9 @@ impl BodyVelocity {
             drift,
             angular: if held { Vec3::ZERO } else { body.angvel() },
             centre: body.center_of_mass(),
-            inverse_mass: if movable { properties.effective_inv_mass * yielding } else { Vec3::ZERO },
+            inverse_mass: if movable { properties.effective_inv_mass * (1.0 - support.held) } else { Vec3::ZERO },
             inverse_inertia: if movable {
-                Mat3::from_cols(inertia * Vec3::X, inertia * Vec3::Y, inertia * Vec3::Z) * yielding
+                Mat3::from_cols(inertia * Vec3::X, inertia * Vec3::Y, inertia * Vec3::Z) * (1.0 - support.held_turn)
             } else {
                 Mat3::ZERO
             },
@@ -89,6 +88,13 @@ impl BodyVelocity {
         self.angular += self.inverse_inertia * (x - self.centre).cross(impulse);
     }
 
+    /// [`BodyVelocity::response`] where nothing held the body: along one direction.
+    pub fn free_response(&self, x: Vec3, n: Vec3) -> f32 {
+        let turn = (x - self.centre).cross(n);
+        let Support { held, held_turn, .. } = self.support;
+        n.dot(self.inverse_mass * n) / (1.0 - held) + turn.dot(self.inverse_inertia * turn) / (1.0 - held_turn)
+    }
+
     /// How much a unit impulse along `n` at `x` changes the velocity along `m` there.
     #[inline]
     pub fn response(&self, x: Vec3, n: Vec3, m: Vec3) -> f32 {
@@ -96,20 +102,21 @@ impl BodyVelocity {
         m.dot(self.inverse_mass * n) + arm.cross(m).dot(self.inverse_inertia * arm.cross(n))
     }
 
-    /// The change of velocity that the impulses make in rapier.
-    pub fn given(&self) -> Vec3 {
-        self.change / (1.0 - self.support.held)
+    /// The changes of linear and angular velocity that the impulses make in rapier.
+    pub fn given(&self) -> [Vec3; 2] {
+        let Support { held, held_turn, .. } = self.support;
+        [self.change / (1.0 - held), (self.angular - self.start.1) / (1.0 - held_turn)]
     }
 
-    /// The velocity that rapier's body gets.
-    pub fn written(&self) -> Vec3 {
-        self.start.0 + self.given()
+    /// The velocities that rapier's body gets.
+    pub fn written(&self) -> [Vec3; 2] {
+        let [linear, angular] = self.given();
+        [self.start.0 + linear, self.start.1 + angular]
     }
 
     /// Gives rapier's body the impulses.
     pub fn write(&self, bodies: &mut RigidBodySet) {
-        let linear = self.written();
-        let angular = self.start.1 + (self.angular - self.start.1) / (1.0 - self.support.held);
+        let [linear, angular] = self.written();
         if !self.is_movable() || !linear.is_finite() || !angular.is_finite() {
             return;
         }
