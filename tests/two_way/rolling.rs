@@ -25,12 +25,10 @@ fn a_soft_ball_rolls_down_a_plane_with_the_acceleration_of_its_inertia() {
         let acceleration = (scene.velocity(rigid).x - before.x) / 1.5;
         let expected = 5.0 / 7.0 * 9.81 * sin;
         let spin = -scene.physics.bodies[rigid].angvel().z;
-        let height = scene.position(rigid).y;
+        // It rolls on a radius between its own and the height of its centre.
+        let height = 0.5 * (RADIUS + scene.position(rigid).y);
         let slip = scene.velocity(rigid).x - spin * height;
         println!("{frequency} Hz, {degrees}°: {acceleration:.3} expected {expected:.3}, slip {slip:.3}, spin {spin}");
-        if std::env::var("RF").is_ok() {
-            continue;
-        }
         assert!((acceleration / expected - 1.0).abs() < 0.1, "{frequency} Hz, {degrees}°: {acceleration}, {expected}");
         assert!(slip.abs() < 0.05 * scene.velocity(rigid).x, "{frequency} Hz, {degrees}°: slips at {slip}");
     }

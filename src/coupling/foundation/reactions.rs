@@ -59,9 +59,9 @@ impl Reactions {
             let carried = if carried.is_finite() { carried.clamp(0.0, 1.0) } else { 0.0 };
             let before = action.support;
             Some(Support {
-                held: 0.5 * (held + before.held),
-                held_turn: 0.5 * (held_turn + before.held_turn),
-                carried: 0.5 * (carried + before.carried),
+                held: lerp(before.held, held),
+                held_turn: lerp(before.held_turn, held_turn),
+                carried: lerp(before.carried, carried),
             })
         };
         bodies.get(handle).and_then(known).unwrap_or_default()
@@ -90,3 +90,10 @@ fn part_held(reaction: Vec3, given: Vec3, least: f32) -> f32 {
 const LEAST: f32 = 0.01;
 /// In rad/s.
 const LEAST_TURN: f32 = 0.02;
+
+fn lerp(before: f32, now: f32) -> f32 {
+    before + (now - before) * LEARNING
+}
+
+/// How fast the guess follows: rapier's answer to a single step is noisy.
+const LEARNING: f32 = 0.2;
