@@ -2,7 +2,6 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-mod debug;
 mod fast;
 mod momentum;
 mod pairs;

@@ -47,18 +47,38 @@ fn a_ball_rebounds_with_the_restitution_that_was_asked_for() {
     for dt in [1.0 / 60.0, 1.0 / 120.0] {
         for frequency in [2.0, 5.0, 12.0, 30.0] {
             for restitution in [0.0, 0.3, 0.6, 0.9] {
-                for speed in [1.0, 3.0, 10.0] {
-                    for phase in [0.0, 0.4, 0.8] {
-                        let e = measured(frequency, restitution, speed, dt, phase);
-                        worst = worst.max((e - restitution).abs());
-                        if (e - restitution).abs() > 0.02 {
-                            println!("dt {dt:.4} f {frequency} e {restitution} v {speed} phase {phase}: {e:.3}");
-                        }
-                    }
+                for (speed, phase) in [1.0, 3.0, 10.0].into_iter().flat_map(|v| [0.0, 0.4, 0.8].map(|p| (v, p))) {
+                    let error = (measured(frequency, restitution, speed, dt, phase) - restitution).abs();
+                    let case = format!("{frequency} Hz, e = {restitution}, {speed} m/s, dt {dt}, phase {phase}");
+                    // The ball is seen to leave at the end of a step only; half of what was asked of us.
+                    assert!(error < 0.025, "{case}: off by {error}");
+                    worst = worst.max(error);
                 }
             }
         }
     }
-    println!("worst {worst}");
-    assert!(worst < 0.05);
+    println!("restitution off by at most {worst:.4}");
+}
+
+#[test]
+fn a_ball_that_bounces_for_a_long_time_never_rises_above_its_start_and_every_bounce_is_lower() {
+    for (frequency, restitution) in [(2.0, 0.9), (5.0, 1.0), (12.0, 0.95), (100.0, 0.9)] {
+        let mut scene = Scene::new();
+        scene.floor();
+        let ball =
+            scene.ball(ContactSettings::bouncing(frequency, restitution, 0.5), Vec3::new(0.0, 2.0, 0.0), Vec3::ZERO);
+        let rigid = scene.rigid(ball);
+        let (mut before, mut top, mut rising) = (2.0_f32, 0.0_f32, false);
+        for frame in 0..1800 {
+            scene.step();
+            let rises = scene.velocity(rigid).y > 0.0;
+            top = if rises { top.max(scene.position(rigid).y) } else { top };
+            if rising && !rises {
+                // Semi-implicit steps of gravity shift an apex by less than g dt²/2.
+                assert!(top < before + 0.0015, "{frequency} Hz, frame {frame}: rises to {top} after {before}");
+                (before, top) = (top, 0.0);
+            }
+            rising = rises;
+        }
+    }
 }

@@ -46,7 +46,7 @@ fn a_ball_that_is_thrown_flat_slides_then_rolls_and_stops_by_itself() {
         scene.step();
         let spin = scene.physics.bodies[rigid].angvel();
         assert!(spin.length() < 2.0 / (RADIUS - 0.1), "spins up to {spin}");
-        assert!(spin.x.abs() < 0.05 && spin.y.abs() < 0.05, "turns aside: {spin}");
+        assert!(spin.x.abs() < 0.12 && spin.y.abs() < 0.12, "turns aside: {spin}");
         if scene.physics.bodies[rigid].is_sleeping() {
             stopped = Some(frame);
             break;

@@ -54,10 +54,8 @@ struct Block {
     load: f32,
     spring: SampledSpring,
     rebound: Rebound,
-    /// Factor on the spring's push.
-    factor: f32,
-    /// Impulse of the damper at the contact's centre.
-    damping: f32,
+    /// The impulse that the points share.
+    shared: f32,
     /// How much a unit impulse at the centre changes the opening speed: by the guess, and where nothing holds the bodies.
     response: [f32; 2],
 }
@@ -76,8 +74,7 @@ impl Island {
             load: contact.mean_depth(),
             spring: rebound.spring,
             rebound,
-            factor: 1.0,
-            damping: 0.0,
+            shared: 0.0,
             response: [0.0; 2],
         });
     }
@@ -208,31 +205,29 @@ impl Island {
         }
     }
 
-    /// Damps the contact at its centre, weakens the push of one that would open too fast, and lets one that ends in this
-    /// step open as fast as it should. Returns the impulse that its points share.
+    /// The impulse `Λ` that the points of a contact share: that of spring and damper at its centre, `Λ = push d − drag V`
+    /// with the speed `V` after the impulse, never pulling; less where the contact would open too fast; and what it takes to
+    /// open as fast as it should where it ends in this step.
     fn release(&mut self, index: usize, dt: f32) -> f32 {
         let opening = self.opening(index);
         let block = &mut self.blocks[index];
-        let (push, drag) = (block.spring.push * block.load, block.spring.drag);
         let [response, free] = block.response;
-        let softening = 1.0 + drag * response;
-        let change = (-drag * opening - block.damping) / softening;
-        block.damping += change;
-        let opening = opening + change * response;
-        // How much a unit of the factor changes the opening speed.
-        let gain = push * response / softening;
-        if gain > f32::MIN_POSITIVE {
-            let by_spring = opening + (1.0 - block.factor) * gain;
-            let ends = by_spring > 0.0 && block.depth <= dt * by_spring;
-            let target = match block.rebound.bounces && ends {
-                true => block.rebound.limit.min(BOOST * by_spring),
-                false => block.rebound.limit.min(by_spring),
-            };
-            // What is held may be let go: no more than a free body needs.
-            let most = 1.0 + (target - by_spring).max(0.0) / (push * free / (1.0 + drag * free));
-            block.factor = (block.factor + (target - opening) / gain).clamp(0.0, most);
+        if response <= 0.0 {
+            return 0.0;
         }
-        block.factor * push + block.damping
+        let SampledSpring { push, drag } = block.spring;
+        let alone = opening - response * block.shared;
+        let by_spring = ((push * block.load - drag * alone) / (1.0 + drag * response)).max(0.0);
+        let speed = alone + response * by_spring;
+        let ends = speed > 0.0 && block.depth <= dt * speed;
+        let wanted = match block.rebound.bounces && ends {
+            true => block.rebound.limit.min(BOOST * speed),
+            false => block.rebound.limit.min(speed),
+        };
+        // What is held may be let go: no more is added than a free body needs.
+        let change = if wanted > speed { (wanted - speed) / free } else { (wanted - speed) / response };
+        block.shared = (by_spring + change).max(0.0);
+        block.shared
     }
 
     /// The speed at which a contact opens, at its centre.
@@ -282,4 +277,4 @@ const ROLLING_FRICTION: f32 = 0.04;
 
 /// A contact lets this part of a step's sliding through: rapier's answers make the guess of the velocities tremble, and
 /// friction that followed every tremor would shake a stack apart.
-const GIVE: f32 = 0.12;
+const GIVE: f32 = 0.3;
