@@ -30,9 +30,12 @@ pub use skin_point::SkinPoint;
 mod foundation;
 mod measure;
 mod ragdoll;
-mod velocities;
 
-pub use foundation::{FoundationPoint, FoundationSettings, push_back, share};
+pub use foundation::{
+    Approach, ContactMaterial, ElasticSide, FoundationContact, FoundationMemory, FoundationPoint, FoundationSettings,
+    PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts, remember_skin_contacts,
+    skin_contacts,
+};
 pub use measure::{INSIDE, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;

@@ -10,7 +10,9 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
-use crate::coupling::{CancelSettings, ContactMemories, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart};
+use crate::coupling::{
+    CancelSettings, ContactMemories, FoundationMemory, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart,
+};
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
 use crate::math::Pose;
@@ -117,6 +119,7 @@ pub struct DeformationWorld {
     pub(super) entries: Arena<Entry>,
     pub(super) parts: PartCache,
     pub(super) own: BTreeSet<(u32, u32)>,
+    pub(super) foundation: FoundationMemory,
     pub(super) report: StepReport,
 }
 
