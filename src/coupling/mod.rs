@@ -16,7 +16,10 @@ pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
 pub use magnitude::complementarity;
-pub use obstacle::{LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, convex_parts, decompose};
+pub use obstacle::{
+    DEFAULT_THICKNESS, LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, PartSource, convex_parts, decompose,
+    decompose_cached,
+};
 pub use penetrations::{Contact, Penetration, find_contacts};
 mod foundation;
 mod measure;
