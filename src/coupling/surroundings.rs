@@ -7,6 +7,7 @@ use rapier3d::geometry::{Collider, ColliderHandle, InteractionGroups};
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d::pipeline::QueryPipeline;
 
+use super::common_way::share_ways_out;
 use super::contact::{Proximity, moved_axis, way_out};
 use super::obstacle::{ObstacleError, ObstaclePart, PartCache, PartId};
 use crate::elastic::ElasticBody;
@@ -103,6 +104,12 @@ pub fn proximities(
             let fresh = ContactMemory { normal, approach: 0.0, age: 0.0 };
             renewed.insert(key, memory.map_or(fresh, |memory| ContactMemory { normal, ..*memory }));
             near.push(Proximity { segment: key.0, part: index, normal, axis_point });
+        }
+    }
+    share_ways_out(body, parts, &mut near);
+    for proximity in &near {
+        if let Some(memory) = renewed.get_mut(&(proximity.segment, parts[proximity.part].id)) {
+            memory.normal = proximity.normal;
         }
     }
     *memories = renewed;

@@ -204,6 +204,7 @@ pub fn all() -> Vec<Kind> {
         Kind { filled: 0.5, ..round("heightfield", ground.clone(), below_ground(&ground)) },
         Kind {
             filled: 0.1,
+            drop_at: up + Vec3::X * 0.8,
             ..round("closed triangle mesh", trimesh(ring, TriMeshFlags::empty()), widened(closed, 0.0))
         },
         Kind {

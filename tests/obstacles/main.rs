@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/random.rs"]
+#[allow(dead_code)] // other tests use the rest of it
 mod random;
 
 mod cached;

@@ -52,7 +52,7 @@ pub(super) fn convex_part(shape: &SharedShape, sheet: f32) -> Result<LocalPart, 
 const CORE_OF_ROUND_TRIANGLE: f32 = 1.0e-5;
 
 fn plain(part: PartShape, rounding: f32, shape: SharedShape, exact: SharedShape, border: f32) -> LocalPart {
-    LocalPart { pose: Pose::IDENTITY, part: ConvexPart { shape: part, rounding }, shape, exact, border }
+    LocalPart { pose: Pose::IDENTITY, part: ConvexPart { shape: part, rounding }, shape, exact, border, face: None }
 }
 
 fn hull(shape: &SharedShape, points: &[Vec3], rounding: f32) -> Result<LocalPart, ObstacleError> {

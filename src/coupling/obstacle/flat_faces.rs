@@ -17,11 +17,17 @@ pub(super) struct Face {
     pub triangles: Vec<u32>,
     /// Unit normal.
     pub normal: Vec3,
-    area: f32,
+    /// The normal of the neighbour beyond the edge from each corner to the next, if there is one.
+    pub neighbours: Vec<Option<Vec3>>,
+    /// Twice its area in m².
+    pub area: f32,
 }
 
 /// A face with more corners than this grows no further: it keeps the search linear.
 const MOST_CORNERS: usize = 128;
+
+/// The limit in the first round; it doubles from round to round, so that squares grow rather than strips.
+const FEW_CORNERS: usize = 8;
 
 /// Faces whose normals have a smaller cosine are not in one plane, whatever the distances.
 const PARALLEL: f32 = 0.9999;
@@ -35,13 +41,24 @@ pub(super) fn flat_faces(points: &[Vec3], triangles: &[[u32; 3]], tolerance: f32
         let [a, b, c] = corners.map(|i| points[i as usize]);
         let cross = (b - a).cross(c - a);
         let Some(normal) = cross.try_normalize() else { continue };
-        let face = Face { corners: corners.to_vec(), triangles: vec![triangle as u32], normal, area: cross.length() };
+        let face = Face {
+            corners: corners.to_vec(),
+            triangles: vec![triangle as u32],
+            normal,
+            neighbours: Vec::new(),
+            area: cross.length(),
+        };
         let index = growing.faces.len();
         growing.own(index, &face.corners);
         growing.faces.push(Some(face));
     }
-    while growing.round() {}
+    let mut most_corners = FEW_CORNERS;
+    while growing.round(most_corners) || most_corners < MOST_CORNERS {
+        most_corners = (2 * most_corners).min(MOST_CORNERS);
+    }
+    let neighbours: Vec<Vec<Option<Vec3>>> = growing.faces.iter().flatten().map(|f| growing.neighbours(f)).collect();
     let mut faces: Vec<Face> = growing.faces.into_iter().flatten().collect();
+    faces.iter_mut().zip(neighbours).for_each(|(face, neighbours)| face.neighbours = neighbours);
     faces.iter_mut().for_each(|face| face.triangles.sort_unstable());
     faces.sort_by_key(|face| face.triangles.first().copied());
     faces
@@ -63,10 +80,10 @@ impl Growing<'_> {
     }
 
     /// Lets every face grow as far as it can. False where none did.
-    fn round(&mut self) -> bool {
+    fn round(&mut self, most_corners: usize) -> bool {
         let mut grown = false;
         for index in 0..self.faces.len() {
-            while let Some((other, corners)) = self.next_neighbour(index) {
+            while let Some((other, corners)) = self.next_neighbour(index, most_corners) {
                 let Some(absorbed) = self.faces[other].take() else { break };
                 let Some(face) = &mut self.faces[index] else { break };
                 if absorbed.area > face.area {
@@ -82,8 +99,18 @@ impl Growing<'_> {
         grown
     }
 
+    /// The normals beyond the edges of a face.
+    fn neighbours(&self, face: &Face) -> Vec<Option<Vec3>> {
+        let beyond = |(i, &from): (usize, &u32)| {
+            let to = face.corners[(i + 1) % face.corners.len()];
+            let other = self.owner.get(&[to, from]).and_then(|&other| self.faces[other].as_ref());
+            other.map(|other| other.normal)
+        };
+        face.corners.iter().enumerate().map(beyond).collect()
+    }
+
     /// A neighbour that a face can grow by, and the corners of both together.
-    fn next_neighbour(&self, index: usize) -> Option<(usize, Vec<u32>)> {
+    fn next_neighbour(&self, index: usize, most_corners: usize) -> Option<(usize, Vec<u32>)> {
         let face = self.faces[index].as_ref()?;
         let mut tried = usize::MAX;
         for (i, &from) in face.corners.iter().enumerate() {
@@ -93,15 +120,15 @@ impl Growing<'_> {
                 continue;
             }
             tried = other;
-            if let Some(corners) = self.faces[other].as_ref().and_then(|other| self.joined(face, other)) {
+            if let Some(corners) = self.faces[other].as_ref().and_then(|other| self.joined(face, other, most_corners)) {
                 return Some((other, corners));
             }
         }
         None
     }
 
-    fn joined(&self, face: &Face, other: &Face) -> Option<Vec<u32>> {
-        if face.normal.dot(other.normal) < PARALLEL || face.corners.len() + other.corners.len() > MOST_CORNERS {
+    fn joined(&self, face: &Face, other: &Face, most_corners: usize) -> Option<Vec<u32>> {
+        if face.normal.dot(other.normal) < PARALLEL {
             return None;
         }
         let (larger, smaller) = if face.area >= other.area { (face, other) } else { (other, face) };
@@ -110,7 +137,7 @@ impl Growing<'_> {
         if smaller.corners.iter().any(off_plane) {
             return None;
         }
-        let corners = outline(&face.corners, &other.corners)?;
+        let corners = outline(&face.corners, &other.corners).filter(|corners| corners.len() <= most_corners)?;
         let convex = (0..corners.len()).all(|i| {
             let [before, at, after] =
                 [i + corners.len() - 1, i, i + 1].map(|k| self.points[corners[k % corners.len()] as usize]);

@@ -1,13 +1,14 @@
 //! Ground: a heightfield as solid blocks below its flat pieces.
 //!
 //! A quadtree over the grid finds the squares that are flat: a plain, however finely it is divided, is one block. A cell
-//! that is folded along its diagonal is one block where the fold is a ridge, and two where it is a valley.
+//! that is folded along its diagonal is two.
 
 use rapier3d::parry::bounding_volume::Aabb;
-use rapier3d::parry::shape::{HeightField, ShapeType, Triangle};
+use rapier3d::parry::shape::{HeightField, ShapeType};
 
 use super::error::ObstacleError;
 use super::local_part::LocalPart;
+use super::outer_face::OuterFace;
 use crate::math::Vec3;
 
 /// Corners farther from a plane than this part of the longest side are not on it.
@@ -177,13 +178,9 @@ impl HeightFieldPieces {
         if self.levels[square.level].node(square.row, square.column).flat {
             return block(number, &self.corners(square)).into_iter().collect();
         }
-        match self.field.triangles_at(square.row, square.column) {
-            (Some(a), Some(b)) if is_ridge(&a, &b) => block(number, &self.corners(square)).into_iter().collect(),
-            (a, b) => {
-                let halves = [(number, a), (number + 1, b)].into_iter();
-                halves.filter_map(|(number, half)| block(number, half?.vertices())).collect()
-            }
-        }
+        let (a, b) = self.field.triangles_at(square.row, square.column);
+        let halves = [(number, a), (number + 1, b)].into_iter();
+        halves.filter_map(|(number, half)| block(number, half?.vertices())).collect()
     }
 }
 
@@ -199,20 +196,18 @@ fn children(row: usize, column: usize, below: [usize; 2]) -> impl Iterator<Item 
     rows.flat_map(move |row| (2 * column..(2 * column + 2).min(below[1])).map(move |column| (row, column)))
 }
 
-/// True where the far corner of the second triangle lies below the plane of the first.
-fn is_ridge(a: &Triangle, b: &Triangle) -> bool {
-    let [p, ..] = *a.vertices();
-    let normal = a.scaled_normal();
-    let up = if normal.y < 0.0 { -normal } else { normal };
-    // The far corner is the lowest or the highest over the plane; those that are shared lie in it.
-    let heights = b.vertices().map(|q| (q - p).dot(up));
-    let far = heights.into_iter().max_by(|x, y| x.abs().total_cmp(&y.abs())).unwrap_or(0.0);
-    far <= 0.0
-}
-
 /// The solid between a flat top and a level bottom, `thickness` below the lowest corner of the top.
 fn block(top: &[Vec3], thickness: f32) -> Option<LocalPart> {
     let bottom = top.iter().map(|p| p.y).fold(f32::INFINITY, f32::min) - thickness;
     let points: Vec<Vec3> = top.iter().flat_map(|p| [*p, p.with_y(bottom)]).collect();
-    LocalPart::hull(&points, 0.0).ok()
+    let parallelogram = (top[1] - top[0]).cross(top[2] - top[0]);
+    let area = parallelogram.length() * if top.len() == 3 { 0.5 } else { 1.0 };
+    let normal = parallelogram.try_normalize()?;
+    let normal = if normal.y < 0.0 { -normal } else { normal };
+    // Nothing tilts over an edge: next to ground there is ground.
+    let middle = top.iter().sum::<Vec3>() / top.len() as f32;
+    let outward = |way: Vec3| (way - normal * way.dot(normal)).try_normalize().map(|way| (way, 0.0));
+    let edges = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z].into_iter().filter_map(outward).collect();
+    let face = OuterFace { normal, offset: normal.dot(middle), area, middle, thickness, two_sided: false, edges };
+    LocalPart::piece(&points, &face).ok()
 }

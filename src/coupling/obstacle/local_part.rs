@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use rapier3d::parry::shape::{SharedShape, TriMesh, TriMeshFlags};
 
+use super::outer_face::OuterFace;
 use crate::field::{ConvexHull, ConvexPart, HullError, PartShape};
 use crate::math::{Pose, Vec3};
 
@@ -20,9 +21,21 @@ pub struct LocalPart {
     pub exact: SharedShape,
     /// Radius in metres by which the part reaches farther than `exact`.
     pub border: f32,
+    /// The face that leads out, where the part is a piece of a surface.
+    pub face: Option<OuterFace>,
 }
 
 impl LocalPart {
+    /// The convex hull of `points` as a piece of a surface with this outer face, in the frame of the shape.
+    ///
+    /// # Errors
+    /// [`HullError`] where the points span no volume.
+    pub(super) fn piece(points: &[Vec3], face: &OuterFace) -> Result<Self, HullError> {
+        let part = Self::hull(points, 0.0)?;
+        let face = face.moved(&part.pose.inverse());
+        Ok(Self { face: Some(face), ..part })
+    }
+
     /// The convex hull of `points`, which are given in the frame of the shape, widened by `rounding`.
     ///
     /// The part's own frame lies in the middle of the points: coordinates stay small, and exact.
@@ -40,7 +53,7 @@ impl LocalPart {
             false => exact.clone(),
         };
         let part = ConvexPart { shape: PartShape::Hull(Arc::new(hull)), rounding };
-        Ok(Self { pose: Pose::from_translation(middle), part, shape, exact, border: rounding })
+        Ok(Self { pose: Pose::from_translation(middle), part, shape, exact, border: rounding, face: None })
     }
 }
 

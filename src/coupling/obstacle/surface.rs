@@ -11,6 +11,7 @@ use rapier3d::parry::shape::{ShapeType, SharedShape, TriMesh, TriMeshFlags};
 use super::error::ObstacleError;
 use super::flat_faces::{Face, flat_faces};
 use super::local_part::LocalPart;
+use super::outer_face::OuterFace;
 use crate::math::Vec3;
 use crate::mesh::{Topology, TriangleMesh};
 
@@ -94,7 +95,32 @@ impl SurfaceFaces {
             let half = face.normal * (0.5 * sheet);
             corners.flat_map(|p| [p + half, p - half]).collect()
         };
-        LocalPart::hull(&points, 0.0).ok()
+        LocalPart::piece(&points, &self.outer_face(face, thickness)).ok()
+    }
+
+    fn outer_face(&self, face: &Face, thickness: f32) -> OuterFace {
+        let corner = |i: usize| self.points[face.corners[i % face.corners.len()] as usize];
+        let edge = |(i, &neighbour): (usize, &Option<Vec3>)| {
+            let way = (corner(i + 1) - corner(i)).cross(face.normal).try_normalize()?;
+            // A way out may lead halfway to the neighbour's normal, where the surface bends away. Past a right angle,
+            // or where there is no neighbour, any will do.
+            let tilt = neighbour.map_or(f32::INFINITY, |neighbour| {
+                let halfway = face.normal + neighbour;
+                let (aside, up) = (halfway.dot(way), halfway.dot(face.normal));
+                let bend = if self.solid { aside.max(0.0) } else { aside.abs() };
+                bend / up.max(f32::MIN_POSITIVE)
+            });
+            Some((way, tilt))
+        };
+        OuterFace {
+            normal: face.normal,
+            offset: face.normal.dot(corner(0)),
+            area: 0.5 * face.area,
+            middle: (0..face.corners.len()).map(corner).sum::<Vec3>() / face.corners.len() as f32,
+            thickness,
+            two_sided: !self.solid,
+            edges: face.neighbours.iter().enumerate().filter_map(edge).collect(),
+        }
     }
 
     /// The way from a corner into the solid, against its normal, at most `thickness` deep.

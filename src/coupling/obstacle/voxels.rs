@@ -97,5 +97,6 @@ fn cuboid(bounds: &Aabb) -> LocalPart {
         exact: shape.clone(),
         shape,
         border: 0.0,
+        face: None,
     }
 }
