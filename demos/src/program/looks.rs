@@ -46,9 +46,12 @@ pub fn obstacle(obstacle: &Obstacle) -> Material {
         ObstacleShape::Cuboid { .. } | ObstacleShape::Cone { .. } => wall,
         ObstacleShape::Ball { .. } => Material::glossy(Vec3::new(0.42, 0.07, 0.05)),
         ObstacleShape::Mesh { .. } => stone,
+        ObstacleShape::Ring { .. } => {
+            Material { colour: Vec3::new(0.16, 0.17, 0.19), roughness: 0.28, ..Material::steel() }
+        }
     };
     let solid = match obstacle.colour {
-        Some(colour) => Material { colour: linear(colour), metallic: 0.0, ..usual },
+        Some(colour) => Material { colour: linear(colour), ..usual },
         None => usual,
     };
     if obstacle.opacity >= 1.0 {

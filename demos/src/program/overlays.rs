@@ -104,7 +104,7 @@ fn add_parts(overlay: &mut Overlay, obstacle: &ObstacleBody, transform: Mat4) {
             let [a, b] = ends(*half_height);
             overlay.cylinder(a, b, *radius, PART);
         }
-        ObstacleShape::Cone { .. } | ObstacleShape::Mesh { .. } => {
+        ObstacleShape::Cone { .. } | ObstacleShape::Mesh { .. } | ObstacleShape::Ring { .. } => {
             for part in &obstacle.parts {
                 overlay.triangles(transform * part.pose.to_mat4(), &part.positions, &part.triangles, PART);
             }

@@ -2,7 +2,7 @@
 
 use crate::render::{MeshData, shapes};
 use crate::scene::ObstacleShape;
-use crate::simulation::ObstacleBody;
+use crate::simulation::{ObstacleBody, ring_surface};
 
 use super::creases::creased;
 
@@ -21,6 +21,10 @@ pub fn surface(obstacle: &ObstacleBody) -> MeshData {
             shapes::cylinder(*half_height, *radius, bevel(half_height.min(*radius)))
         }
         ObstacleShape::Cone { .. } => parts(obstacle),
+        ObstacleShape::Ring { radius, thickness } => {
+            let (positions, normals, triangles) = ring_surface(*radius, *thickness);
+            MeshData { positions, normals, indices: triangles.into_flattened() }
+        }
         ObstacleShape::Mesh { .. } => match &obstacle.mesh {
             Some(mesh) => creased(&mesh.positions, &mesh.triangles),
             None => parts(obstacle),

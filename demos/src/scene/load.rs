@@ -1,6 +1,7 @@
 //! Reading a scene file: every fault is told with the file, the line and the key.
 
 use super::checks::{At, LARGEST};
+use super::dragger::dragger;
 use super::raw::{RawBody, RawObstacle, RawPath, RawScene, RawShape, RawSpin};
 use super::types::{Body, Camera, MAX_DT, MAX_DURATION, Obstacle, ObstaclePath, ObstacleShape, PathKind, Scene, Spin};
 use pliant::elastic::{TomlError, TomlText, did_you_mean};
@@ -35,13 +36,19 @@ pub fn load_scene(path: impl AsRef<Path>) -> Result<Scene, TomlError> {
         gravity: at.finite("gravity", raw.gravity)?,
         softness: raw.softness.map(|s| at.above_zero("softness", s, 10.0)).transpose()?,
         camera: camera(&at, &raw)?,
-        bodies,
         obstacles: raw
             .obstacle
             .iter()
             .enumerate()
             .map(|(i, o)| obstacle(&at.item("obstacle", i), o))
             .collect::<Result<_, _>>()?,
+        draggers: raw
+            .dragger
+            .iter()
+            .enumerate()
+            .map(|(i, d)| dragger(&at.item("dragger", i), d, &bodies))
+            .collect::<Result<_, _>>()?,
+        bodies,
         name: raw.name,
     })
 }
@@ -84,13 +91,14 @@ fn obstacle(at: &At, raw: &RawObstacle) -> Result<Obstacle, TomlError> {
 }
 
 /// The keys of each kind of shape, the needed ones first and how many they are.
-const SHAPES: [(&str, &[&str], usize); 6] = [
+const SHAPES: [(&str, &[&str], usize); 7] = [
     ("ball", &["radius"], 1),
     ("cuboid", &["half_extents"], 1),
     ("capsule", &["half_height", "radius"], 2),
     ("cylinder", &["half_height", "radius"], 2),
     ("cone", &["half_height", "radius"], 2),
     ("mesh", &["file", "scale", "max_parts"], 1),
+    ("ring", &["radius", "thickness"], 2),
 ];
 
 fn shape(at: &At, raw: &RawShape) -> Result<ObstacleShape, TomlError> {
@@ -106,6 +114,7 @@ fn shape(at: &At, raw: &RawShape) -> Result<ObstacleShape, TomlError> {
         ("file", raw.file.is_some()),
         ("scale", raw.scale.is_some()),
         ("max_parts", raw.max_parts.is_some()),
+        ("thickness", raw.thickness.is_some()),
     ];
     for (key, is_given) in given {
         match keys.iter().position(|k| *k == key) {
@@ -124,6 +133,7 @@ fn shape(at: &At, raw: &RawShape) -> Result<ObstacleShape, TomlError> {
         "capsule" => ObstacleShape::Capsule { half_height, radius },
         "cylinder" => ObstacleShape::Cylinder { half_height, radius },
         "cone" => ObstacleShape::Cone { half_height, radius },
+        "ring" => ObstacleShape::Ring { radius, thickness: length("thickness", raw.thickness)? },
         "cuboid" => {
             let sides = raw.half_extents.unwrap_or([1.0; 3]);
             sides.iter().try_for_each(|s| at.above_zero("half_extents", *s, LARGEST).map(drop))?;

@@ -20,6 +20,8 @@ pub(super) struct RawScene {
     pub body: Vec<RawBody>,
     #[serde(default)]
     pub obstacle: Vec<RawObstacle>,
+    #[serde(default)]
+    pub dragger: Vec<RawDragger>,
 }
 
 fn sixtieth() -> f32 {
@@ -85,6 +87,20 @@ pub(super) struct RawShape {
     pub file: Option<PathBuf>,
     pub scale: Option<f32>,
     pub max_parts: Option<u32>,
+    pub thickness: Option<f32>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawDragger {
+    pub body: String,
+    pub pulls: String,
+    #[serde(default)]
+    pub point: Triple,
+    pub keys: Vec<[f32; 4]>,
+    pub radius: Option<f32>,
+    pub frequency: Option<f32>,
+    pub steady: Option<bool>,
 }
 
 #[derive(Deserialize)]

@@ -1,5 +1,6 @@
 //! The data of a scene, all checked: finite, in range, files that exist.
 
+use super::dragger::Dragger;
 use pliant::math::{Pose, Vec3};
 use std::path::PathBuf;
 
@@ -28,6 +29,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Obstacles.
     pub obstacles: Vec<Obstacle>,
+    /// Hands that follow a script.
+    pub draggers: Vec<Dragger>,
 }
 
 /// A camera.
@@ -121,6 +124,13 @@ pub enum ObstacleShape {
         scale: f32,
         /// At most this many convex parts, at least 1.
         max_parts: Option<u32>,
+    },
+    /// A ring around the y axis, bent of a round bar.
+    Ring {
+        /// Radius of the opening.
+        radius: f32,
+        /// Radius of the bar.
+        thickness: f32,
     },
 }
 

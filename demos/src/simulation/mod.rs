@@ -3,9 +3,13 @@
 mod build;
 mod grab;
 mod obstacle;
+mod pull;
+mod ring;
 mod running;
+mod scripted;
 
 pub use build::BuildError;
 pub use grab::Hit;
 pub use obstacle::{ObstacleBody, ShownPart};
+pub use ring::ring_surface;
 pub use running::{Actor, Simulation};

@@ -10,6 +10,7 @@ use rapier3d::geometry::{ColliderBuilder, ColliderHandle, SharedShape, TypedShap
 use rapier3d::pipeline::PhysicsWorld;
 
 use super::build::BuildError;
+use super::ring::ring;
 use crate::scene::{Obstacle, ObstacleShape};
 
 /// Convex parts of a mesh obstacle that says nothing about their number.
@@ -82,6 +83,7 @@ fn shape_of(obstacle: &Obstacle) -> Result<(SharedShape, Option<TriangleMesh>), 
         ObstacleShape::Capsule { half_height, radius } => SharedShape::capsule_y(*half_height, *radius),
         ObstacleShape::Cylinder { half_height, radius } => SharedShape::cylinder(*half_height, *radius),
         ObstacleShape::Cone { half_height, radius } => SharedShape::cone(*half_height, *radius),
+        ObstacleShape::Ring { radius, thickness } => ring(*radius, *thickness),
         ObstacleShape::Mesh { file, scale, max_parts } => {
             let mesh = scaled_mesh(file, *scale)?;
             let shape = decompose(&mesh, max_parts.unwrap_or(DEFAULT_PARTS));
