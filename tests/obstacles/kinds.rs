@@ -98,11 +98,14 @@ fn trimesh((points, triangles): (Vec<Vec3>, Vec<[u32; 3]>), flags: TriMeshFlags)
     SharedShape::trimesh_with_flags(points, triangles, flags).expect("a mesh")
 }
 
-/// Depth below a heightfield, along the vertical: at least the true depth.
+/// Depth below a heightfield of 4 m by 4 m, along the vertical: at least the true depth, but not beyond the rim.
 fn below_ground(shape: &SharedShape) -> Truth {
     let shape = shape.clone();
     Box::new(move |x| {
         let field = shape.as_heightfield().expect("a heightfield");
+        let rim = (2.0 - x.x.abs()).min(2.0 - x.z.abs());
+        // On the rim, and outside by rounding, the ground is that beside it.
+        let x = x.clamp(Vec3::new(-1.9999, x.y, -1.9999), Vec3::new(1.9999, x.y, 1.9999));
         let inside = field.cell_at_point(x).map(|(i, j)| field.triangles_at(i, j));
         let height = |triangle: &rapier3d::parry::shape::Triangle| {
             let [a, b, c] = *triangle.vertices();
@@ -114,7 +117,7 @@ fn below_ground(shape: &SharedShape) -> Truth {
         };
         let (one, other) = inside.unwrap_or((None, None));
         let ground = one.as_ref().and_then(height).or_else(|| other.as_ref().and_then(height));
-        ground.map_or(f32::NEG_INFINITY, |ground| ground - x.y)
+        ground.map_or(f32::NEG_INFINITY, |ground| (ground - x.y).min(rim))
     })
 }
 
@@ -212,7 +215,7 @@ pub fn all() -> Vec<Kind> {
             ..round(
                 "oriented triangle mesh",
                 trimesh(sheet(6, 3.0), TriMeshFlags::ORIENTED),
-                Box::new(|x| if x.x.abs().max(x.z.abs()) <= 1.5 { -x.y } else { f32::NEG_INFINITY }),
+                Box::new(|x| (-x.y).min(1.5 - x.x.abs()).min(1.5 - x.z.abs())),
             )
         },
         no_depth(round(
