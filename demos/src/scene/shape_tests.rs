@@ -74,7 +74,10 @@ fn bad_shapes_are_refused_with_the_key_at_fault() {
         ("kind = 'voxels', voxel_size = 0, cells = [[0, 0, 0]]", &["`voxel_size`", "above 0"]),
         ("kind = 'voxels', voxel_size = 1, cells = [[0, 0, 99999]]", &["`cells` must lie"]),
         ("kind = 'compound', shapes = []", &["`shapes` is empty"]),
-        ("kind = 'compound', shapes = [{ kind = 'mesh', file = 'rock.obj' }]", &["shapes 0: `kind`", "parts of its own"]),
+        (
+            "kind = 'compound', shapes = [{ kind = 'mesh', file = 'rock.obj' }]",
+            &["shapes 0: `kind`", "parts of its own"],
+        ),
         ("kind = 'compound', shapes = [{ kind = 'ball' }]", &["shapes 0: `radius` is missing"]),
         ("kind = 'ball', radius = 1, position = [0, 0, 0]", &["`position` is a key of the obstacle"]),
     ];
@@ -100,7 +103,12 @@ fn a_dynamic_obstacle_has_a_mass_and_a_velocity() {
         (ball, "dynamic = false\nvelocity = [1, 0, 0]", 9, "`velocity` is a key of dynamic obstacles"),
         (ball, "dynamic = true\nmass = 0", 9, "`mass` must be"),
         (ball, "dynamic = true\nmass = 1\ndensity = 1", 10, "`density` is given beside `mass`"),
-        (ball, "dynamic = true\nspin = { axis = [0, 1, 0], degrees_per_second = 1 }", 9, "`spin` is given for a dynamic"),
+        (
+            ball,
+            "dynamic = true\nspin = { axis = [0, 1, 0], degrees_per_second = 1 }",
+            9,
+            "`spin` is given for a dynamic",
+        ),
         (ball, "restitution = 2", 8, "`restitution` must be from 0 to 1"),
         ("kind = 'half_space'", "dynamic = true", 8, "`dynamic` is given for a shape without a volume"),
     ];

@@ -1,4 +1,8 @@
-//! Voxels as few boxes: in each block of the grid, filled neighbours are merged.
+//! Voxels as few boxes.
+//!
+//! In each block of the grid boxes grow from voxels that no box has covered yet, through all that is filled, also beyond
+//! the block and through other boxes: what is level is one box around a body, and the lower step goes on below the
+//! higher one. Boxes that ended at each other would leave seams, through which skin is pushed from one into the next.
 
 use std::collections::BTreeSet;
 
@@ -12,6 +16,9 @@ use crate::math::{Pose, Vec3};
 
 /// Voxels along each side of a block.
 const BLOCK: i32 = 16;
+
+/// Boxes grow this far beyond their block.
+const MARGIN: i32 = 16;
 
 /// Where a region has more blocks than this, they are found by the filled voxels in it.
 const MANY_BLOCKS: i64 = 4096;
@@ -55,37 +62,100 @@ pub(super) fn cells_near(grid: &Voxels, region: &Aabb, cells: &mut Vec<u64>) {
     }
 }
 
-/// See [`super::PartSource::expand`]: the boxes of a block, each with the number of its first voxel.
+/// See [`super::PartSource::expand`]: boxes that fill a block, each with the number of the voxel that it grew from.
 pub(super) fn expand(grid: &Voxels, cell: u64) -> Vec<(u32, LocalPart)> {
-    let first = block_of(cell) * BLOCK;
-    let mut filled: BTreeSet<[i32; 3]> =
-        grid.voxels_in_range(first, first + BLOCK).map(|voxel| voxel.grid_coords.to_array()).collect();
+    let neighbourhood = Neighbourhood::new(grid, block_of(cell) * BLOCK);
+    let mut covered = BTreeSet::new();
     let mut boxes = Vec::new();
-    while let Some(&corner) = filled.first() {
-        let mut end = corner.map(|c| c + 1);
-        // As far along z as it goes, then that row along y, then that layer along x.
-        for axis in [2, 1, 0] {
-            loop {
-                let mut layer = [corner, end];
-                (layer[0][axis], layer[1][axis]) = (end[axis], end[axis] + 1);
-                if end[axis] >= first[axis] + BLOCK || !cells_of(layer).all(|voxel| filled.contains(&voxel)) {
-                    break;
-                }
-                end[axis] += 1;
-            }
+    for seed in cells_of([IVec3::splat(MARGIN), IVec3::splat(MARGIN + BLOCK)]) {
+        if covered.contains(&seed.to_array()) || neighbourhood.filled(seed, seed + 1) == 0 {
+            continue;
         }
-        for voxel in cells_of([corner, end]) {
-            filled.remove(&voxel);
-        }
-        let number = grid.linear_index(IVec3::from(corner)).map_or(0, |index| index.flat_id() as u32);
-        boxes.push((number, cuboid(&grid.voxel_range_aabb(IVec3::from(corner), IVec3::from(end)))));
+        let [low, high] = neighbourhood.grown(seed);
+        covered.extend(
+            cells_of([low.max(IVec3::splat(MARGIN)), high.min(IVec3::splat(MARGIN + BLOCK))]).map(|c| c.to_array()),
+        );
+        let number = grid.linear_index(neighbourhood.first + seed).map_or(0, |index| index.flat_id() as u32);
+        let bounds = grid.voxel_range_aabb(neighbourhood.first + low, neighbourhood.first + high);
+        boxes.push((number, cuboid(&bounds)));
     }
     boxes.sort_by_key(|(number, _)| *number);
     boxes
 }
 
-fn cells_of([low, high]: [[i32; 3]; 2]) -> impl Iterator<Item = [i32; 3]> {
-    (low[0]..high[0]).flat_map(move |x| (low[1]..high[1]).flat_map(move |y| (low[2]..high[2]).map(move |z| [x, y, z])))
+/// How many voxels are filled in the boxes around a block, by a table of sums.
+struct Neighbourhood {
+    /// The voxel at place 0.
+    first: IVec3,
+    /// Filled voxels between place 0 and each place.
+    sums: Vec<u32>,
+}
+
+/// Places along each side.
+const PLACES: i32 = BLOCK + 2 * MARGIN;
+
+impl Neighbourhood {
+    /// Of the block that begins at a voxel.
+    fn new(grid: &Voxels, block: IVec3) -> Self {
+        let first = block - MARGIN;
+        let mut neighbourhood = Self { first, sums: vec![0; (PLACES as usize + 1).pow(3)] };
+        for voxel in grid.voxels_in_range(first, first + PLACES) {
+            let at = index(voxel.grid_coords - first + 1);
+            neighbourhood.sums[at] = 1;
+        }
+        for axis in [IVec3::X, IVec3::Y, IVec3::Z] {
+            for place in cells_of([IVec3::ONE, IVec3::splat(PLACES + 1)]) {
+                neighbourhood.sums[index(place)] += neighbourhood.sums[index(place - axis)];
+            }
+        }
+        neighbourhood
+    }
+
+    /// The number of filled voxels in the box from `low` up to `high`.
+    fn filled(&self, low: IVec3, high: IVec3) -> u32 {
+        let sum = |x: i32, y: i32, z: i32| self.sums[index(IVec3::new(x, y, z))];
+        let upper = sum(high.x, high.y, high.z)
+            + sum(low.x, low.y, high.z)
+            + sum(low.x, high.y, low.z)
+            + sum(high.x, low.y, low.z);
+        let lower = sum(low.x, high.y, high.z)
+            + sum(high.x, low.y, high.z)
+            + sum(high.x, high.y, low.z)
+            + sum(low.x, low.y, low.z);
+        upper - lower
+    }
+
+    /// The box that a filled voxel grows to: by a layer on each side in turn, as long as all of the layer is filled.
+    fn grown(&self, seed: IVec3) -> [IVec3; 2] {
+        let (mut low, mut high) = (seed, seed + 1);
+        let mut grown = true;
+        while grown {
+            grown = false;
+            for axis in [IVec3::Y, IVec3::X, IVec3::Z] {
+                let area = ((high - low) * (IVec3::ONE - axis) + axis).element_product() as u32;
+                let along = |v: IVec3| (v * axis).element_sum();
+                if along(high) < PLACES && self.filled(low * (IVec3::ONE - axis) + high * axis, high + axis) == area {
+                    high += axis;
+                    grown = true;
+                }
+                if along(low) > 0 && self.filled(low - axis, high * (IVec3::ONE - axis) + low * axis) == area {
+                    low -= axis;
+                    grown = true;
+                }
+            }
+        }
+        [low, high]
+    }
+}
+
+fn index(place: IVec3) -> usize {
+    let side = PLACES as usize + 1;
+    (place.x as usize * side + place.y as usize) * side + place.z as usize
+}
+
+fn cells_of([low, high]: [IVec3; 2]) -> impl Iterator<Item = IVec3> {
+    (low.x..high.x)
+        .flat_map(move |x| (low.y..high.y).flat_map(move |y| (low.z..high.z).map(move |z| IVec3::new(x, y, z))))
 }
 
 fn cuboid(bounds: &Aabb) -> LocalPart {
