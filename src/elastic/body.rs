@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::body_normals::{BodyNormals, Normals};
 use super::palette::{Palette, SegmentEntry, SpringStage};
 use super::rest::SegmentSkin;
-use super::rig::{ElasticRig, MAX_INFLUENCES, MassSpringSetRig};
+use super::rig::{ElasticRig, MAX_INFLUENCES, MassSpringSetRig, SkinWeights};
 use super::skin_order::SkinOrder;
 use crate::field::{Integrator, LANES, SpringField};
 use crate::math::{Pose, Vec3};
@@ -229,6 +229,24 @@ impl ElasticBody {
             let [local, global] = stages.map(|fields| SpringStage::certified(fields, integrator, max_steps));
             self.palette.segments.push(SegmentEntry { motion: *motion, local, global });
         }
+    }
+
+    /// Takes back all collision passes but the first `passes`, after which the skin was at `positions`. Nothing happens
+    /// unless there is one position a vertex.
+    pub fn restore(&mut self, positions: &[Vec3], passes: usize) {
+        if positions.len() == self.positions.len() {
+            self.positions.copy_from_slice(positions);
+            self.palette.passes.truncate(passes);
+        }
+    }
+
+    /// Where the rigid segments alone would carry each vertex: equation (18) without fields.
+    pub fn rigid_positions(&self) -> Vec<Vec3> {
+        let carried = |(x, skin): (&Vec3, &SkinWeights)| {
+            let share = |k: usize| self.motions[usize::from(skin.segments[k])].transform_point(*x) * skin.weights[k];
+            (0..MAX_INFLUENCES).filter(|&k| skin.weights[k] > 0.0).map(share).sum()
+        };
+        self.rig.mesh.positions.iter().zip(&self.rig.weights).map(carried).collect()
     }
 
     /// True when every vertex is finite.
