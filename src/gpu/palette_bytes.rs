@@ -5,7 +5,7 @@
 //! segments    rotation | translation | local stage | global stage       a stage: first field, count, steps
 //! springs     p, r_o | q
 //! passes      first field, count, steps
-//! collisions  kind, first share, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape | patch, its width
+//! collisions  kind, first share, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape | patch, its width | spread
 //! shares      of four segments a row                                 none where all skin takes all
 //! triangles   plane | corner | corner | corner                          of each convex hull in use, once
 //! ```
@@ -23,7 +23,7 @@ use crate::math::{Pose, Vec3};
 pub(super) const HEADER: u32 = 2;
 pub(super) const SEGMENT: u32 = 4;
 pub(super) const SPRING: u32 = 2;
-pub(super) const COLLISION: u32 = 8;
+pub(super) const COLLISION: u32 = 9;
 pub(super) const TRIANGLE: u32 = 4;
 
 /// Integration rules; anything else is the Runge-Kutta rule.
@@ -152,6 +152,7 @@ fn collision_rows<'a>(
                 one,
                 two,
                 real(field.patch.centre - origin, field.patch.radius.min(f32::MAX)),
+                real(field.spread.along, field.spread.share),
             ]
         }
     }
