@@ -95,7 +95,8 @@ fn draggers_deform_the_same_on_the_device() {
     };
     let drags = DragStage::certified(held.iter().map(field).collect(), Integrator::Midpoint, 24);
     for integrator in INTEGRATORS {
-        let palette = Palette { segments: vec![entry.clone(); 4], drags: drags.clone(), integrator, ..Palette::default() };
+        let palette =
+            Palette { segments: vec![entry.clone(); 4], drags: drags.clone(), integrator, ..Palette::default() };
         let pulled = palette.deform(held[0].0, &held[0].1).distance(motion.transform_point(held[0].0));
         assert!(pulled > 0.5, "{pulled}");
         let (position, normal, _) = differences(gpu, &skin, &palette);

@@ -209,7 +209,10 @@ impl ElasticBody {
             let turning = set.velocity / rig.spring.angular_frequency();
             set.displacement().length_squared() + turning.length_squared() > tolerance * tolerance
         };
-        if self.settings.gravity != Vec3::ZERO || !self.draggers.list.is_empty() || self.sets.iter().zip(&self.rig.sets).any(swings) {
+        if self.settings.gravity != Vec3::ZERO
+            || !self.draggers.list.is_empty()
+            || self.sets.iter().zip(&self.rig.sets).any(swings)
+        {
             return false;
         }
         for set in &mut self.sets {

@@ -97,9 +97,7 @@ impl DragStage {
             return x;
         }
         path_line(x, integrator, self.steps, |x, t| {
-            self.fields
-                .iter()
-                .fold(Vec3::ZERO, |sum, drag| sum + drag.field.velocity(x, t) * drag.weight_of(skin))
+            self.fields.iter().fold(Vec3::ZERO, |sum, drag| sum + drag.field.velocity(x, t) * drag.weight_of(skin))
         })
     }
 

@@ -1,7 +1,9 @@
 //! A skin with several segments, and random palettes for it.
 
 use fastrand::Rng;
-use pliant::elastic::{CollisionField, CollisionPass, DragField, DragStage, Palette, SegmentEntry, SegmentField, SkinWeights, SpringStage};
+use pliant::elastic::{
+    CollisionField, CollisionPass, DragField, DragStage, Palette, SegmentEntry, SegmentField, SkinWeights, SpringStage,
+};
 use pliant::field::{ConvexPart, HuggingField, Integrator, PartShape, PlacedPart, SphereField, SpringField};
 use pliant::math::{Pose, Quat, Vec3};
 
