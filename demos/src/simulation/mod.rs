@@ -9,7 +9,7 @@ mod running;
 mod scripted;
 
 pub use build::BuildError;
-pub use grab::Hit;
+pub use grab::{Hit, Take};
 pub use obstacle::{ObstacleBody, ShownPart};
 pub use ring::ring_surface;
 pub use running::{Actor, Simulation};
