@@ -72,7 +72,12 @@ impl RunArgs {
 
     /// Whether no window is wanted.
     pub fn is_headless(&self) -> bool {
-        self.headless || self.no_pictures || self.frames.is_some() || self.out.is_some() || self.picture_every.is_some() || self.strip.is_some()
+        self.headless
+            || self.no_pictures
+            || self.frames.is_some()
+            || self.out.is_some()
+            || self.picture_every.is_some()
+            || self.strip.is_some()
     }
 }
 

@@ -32,7 +32,11 @@ pub(super) struct Grab {
 enum Hold {
     Body(Pull),
     /// Of which actor, and how far the held vertex is from where the ray met the skin.
-    Skin { actor: usize, dragger: DraggerHandle, aside: Vec3 },
+    Skin {
+        actor: usize,
+        dragger: DraggerHandle,
+        aside: Vec3,
+    },
 }
 
 /// What a grab takes hold of.
