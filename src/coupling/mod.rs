@@ -3,6 +3,7 @@
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
 mod cancel;
+mod common_way;
 mod contact;
 mod gauge;
 mod literal;
@@ -13,10 +14,14 @@ mod probes;
 mod strength;
 
 pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
+pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
 pub use magnitude::complementarity;
-pub use obstacle::{LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, convex_parts, decompose};
+pub use obstacle::{
+    DEFAULT_THICKNESS, LocalPart, ObstacleError, ObstaclePart, OuterFace, PartCache, PartId, PartSource, convex_parts,
+    decompose, decompose_cached,
+};
 pub use penetrations::{Contact, Penetration, find_contacts};
 mod foundation;
 mod measure;

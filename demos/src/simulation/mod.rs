@@ -7,9 +7,12 @@ mod pull;
 mod ring;
 mod running;
 mod scripted;
+mod shape;
+mod shown_part;
 
 pub use build::BuildError;
 pub use grab::{Hit, Take};
-pub use obstacle::{ObstacleBody, ShownPart};
+pub use obstacle::ObstacleBody;
 pub use ring::ring_surface;
 pub use running::{Actor, Simulation};
+pub use shown_part::ShownPart;
