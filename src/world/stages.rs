@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::deformation_world::{DeformationWorld, ElasticBodyHandle, Entry, Settled};
 use super::encounter::Encounter;
+use super::meetings::Interfaces;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
@@ -130,8 +131,9 @@ impl DeformationWorld {
     /// anew, further rounds follow.
     fn cancel_penetrations(&mut self, encounters: &mut [Encounter], pairs: &[SegmentPair]) {
         let mut pairs = pairs.to_vec();
+        let mut interfaces = Interfaces::new();
         for round in 0..=PAIR_ROUNDS {
-            let touched = self.part_skins(encounters, &pairs, round);
+            let touched = self.part_skins(encounters, &pairs, &mut interfaces);
             if round > 0 && !touched.contains(&true) {
                 break;
             }
@@ -237,7 +239,7 @@ const PAIR_ROUNDS: u32 = 3;
 /// obstacle towards the next.
 fn swing(entry: &Entry) -> f32 {
     let springs = entry.body.sets().iter().map(|set| set.displacement().length()).fold(0.0, f32::max);
-    springs + CANCELLED * entry.size
+    springs + entry.body.drag_reach() + CANCELLED * entry.size
 }
 
 /// The farthest that the cancellation is expected to move the skin, as a fraction of the body's size.

@@ -87,15 +87,7 @@ pub fn hugging_field(rng: &mut Rng, kind: usize) -> HuggingField {
     let width = between(rng, 0.7, 2.0);
     let gauge = part.pose().translation + in_cube(rng, 0.7);
     let d = direction(rng) * between(rng, 0.1, 1.0);
-    HuggingField {
-        part,
-        d,
-        gauge,
-        width,
-        spread: spread(rng, d),
-        patch: patch(rng, gauge),
-        extent: 1.5,
-    }
+    HuggingField { part, d, gauge, width, spread: spread(rng, d), patch: patch(rng, gauge), extent: 1.5 }
 }
 
 /// Every second one is even.
