@@ -102,7 +102,7 @@ fn place_fields(
             let others = contacts.iter().enumerate().filter(|&(i, _)| i != j);
             others.map(|(_, other)| (other.centre, other.near.normal))
         };
-        let gauge = gauge_point(contact.centre, others());
+        let gauge = gauge_point(contact.centre, others(), body.skins()[usize::from(contact.near.segment)].size);
         let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
