@@ -222,7 +222,8 @@ fn a_ball_falls_onto_a_concave_mesh_cut_into_convex_parts_and_ends_outside_of_al
 fn a_collider_without_convex_parts_is_reported_and_ignored() {
     let (mut physics, mut deformation, ball) = ball_above_a_floor();
     let fixed = physics.insert_body(RigidBodyBuilder::fixed());
-    let triangle = vec![Vec3::new(-1.0, 0.2, -1.0), Vec3::new(1.0, 0.2, -1.0), Vec3::new(0.0, 0.2, 1.0)];
+    // A triangle without an area.
+    let triangle = vec![Vec3::new(-1.0, 0.2, -1.0), Vec3::new(1.0, 0.2, -1.0), Vec3::new(0.0, 0.2, -1.0)];
     let mesh = ColliderBuilder::trimesh(triangle, vec![[0, 1, 2]]).expect("a triangle mesh").sensor(false);
     let collider = physics.insert_collider(mesh, Some(fixed));
     step(&mut physics, &mut deformation, ball);

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use pliant_demos::modeller::camel::camel;
+use pliant_demos::modeller::head::head;
 use pliant_demos::modeller::icosphere::icosphere;
 use pliant_demos::modeller::mesh::Mesh;
 use pliant_demos::modeller::obj;
@@ -15,6 +16,7 @@ fn main() -> Result<()> {
     std::fs::create_dir_all(&folder).with_context(|| format!("creating {}", folder.display()))?;
     write(&folder.join("ball.obj"), &icosphere(0.5, 4))?;
     write(&folder.join("rock.obj"), &rock())?;
+    write(&folder.join("head.obj"), &head())?;
     write(&folder.join("camel.obj"), &camel())
 }
 

@@ -41,7 +41,7 @@ pub fn way_out(part: &ObstaclePart, axis: [Vec3; 2]) -> Option<(Vec3, Vec3)> {
     }
     let point = axis[0] + along * (0.5 * (low + high));
     let (distance, direction) = part.placed.distance(point);
-    (distance > 0.0).then_some((direction, point))
+    (distance > 0.0).then(|| (part.way_out(direction), point))
 }
 
 /// The axis is halved this often: to a 4096th of its length.

@@ -3,6 +3,7 @@
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
 mod cancel;
+mod common_way;
 mod contact;
 mod gauge;
 mod literal;
@@ -15,10 +16,14 @@ mod skin_point;
 mod strength;
 
 pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
+pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
 pub use magnitude::complementarity;
-pub use obstacle::{LocalPart, ObstacleError, ObstaclePart, PartCache, PartId, convex_parts, decompose};
+pub use obstacle::{
+    DEFAULT_THICKNESS, LocalPart, ObstacleError, ObstaclePart, OuterFace, PartCache, PartId, PartSource, convex_parts,
+    decompose, decompose_cached,
+};
 pub use penetrations::{Contact, Penetration, find_contacts, find_piercings};
 pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};
 pub use skin_point::SkinPoint;

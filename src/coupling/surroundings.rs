@@ -7,6 +7,7 @@ use rapier3d::geometry::{Collider, ColliderHandle, InteractionGroups};
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d::pipeline::QueryPipeline;
 
+use super::common_way::share_ways_out;
 use super::contact::{Proximity, moved_axis, way_out};
 use super::obstacle::{ObstacleError, ObstaclePart, PartCache, PartId};
 use crate::elastic::ElasticBody;
@@ -41,10 +42,11 @@ pub type ContactMemories = BTreeMap<(u16, PartId), ContactMemory>;
 /// Collects the convex parts of all colliders near `region` that the body collides with.
 ///
 /// Sensors, disabled colliders and the `own` bodies are left out; colliders that have no convex parts are reported in
-/// `refused`.
+/// `refused`. Surfaces without a volume of their own are at least `thickness` metres thick (see [`PartCache`]).
 pub fn obstacles_near(
     query: &QueryPipeline<'_>,
     region: &Aabb,
+    thickness: f32,
     groups: InteractionGroups,
     own: &dyn Fn(RigidBodyHandle) -> bool,
     cache: &mut PartCache,
@@ -56,26 +58,22 @@ pub fn obstacles_near(
             && collider.collision_groups().test(groups)
             && !collider.parent().is_some_and(own)
     };
+    // What went through a surface is behind the box around it, but not farther than the surface is thick.
+    let wide = region.loosened(thickness);
     let mut handles: Vec<(ColliderHandle, &Collider)> =
-        query.intersect_aabb_conservative(*region).filter(|(_, collider)| meets(collider)).collect();
+        query.intersect_aabb_conservative(wide).filter(|(_, collider)| meets(collider)).collect();
     // The tree's order depends on its history; ours must not.
     handles.sort_by_key(|(handle, _)| handle.into_raw_parts());
     let mut parts = Vec::new();
+    let mut local = Vec::new();
     for (handle, collider) in handles {
         let raw = handle.into_raw_parts();
-        match cache.parts(handle, collider) {
-            Err(error) => {
-                refused.insert(raw, (handle, error));
-            }
-            Ok(local) => {
-                for (index, local) in local.iter().enumerate() {
-                    let pose = *collider.position() * local.pose;
-                    if pose.is_finite() && local.shape.compute_aabb(&pose).intersects(region) {
-                        let id = PartId { collider: raw, part: index as u32 };
-                        parts.push(ObstaclePart::new(id, handle, local, pose));
-                    }
-                }
-            }
+        if let Err(error) = cache.parts_near(handle, collider, region, thickness, &mut local) {
+            refused.insert(raw, (handle, error));
+        }
+        for (part, local) in local.drain(..) {
+            let id = PartId { collider: raw, part };
+            parts.push(ObstaclePart::new(id, handle, &local, *collider.position() * local.pose));
         }
     }
     parts
@@ -106,6 +104,12 @@ pub fn proximities(
             let fresh = ContactMemory { normal, approach: 0.0, age: 0.0 };
             renewed.insert(key, memory.map_or(fresh, |memory| ContactMemory { normal, ..*memory }));
             near.push(Proximity { segment: key.0, part: index, normal, axis_point });
+        }
+    }
+    share_ways_out(body, parts, &mut near);
+    for proximity in &near {
+        if let Some(memory) = renewed.get_mut(&(proximity.segment, parts[proximity.part].id)) {
+            memory.normal = proximity.normal;
         }
     }
     *memories = renewed;

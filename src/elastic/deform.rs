@@ -68,6 +68,17 @@ impl CollisionPass {
 }
 
 impl SkinWeights {
+    /// The segment that has the largest share; the first of several.
+    pub fn heaviest(&self) -> u16 {
+        let mut best = 0;
+        for k in 1..MAX_INFLUENCES {
+            if self.weights[k] > self.weights[best] {
+                best = k;
+            }
+        }
+        self.segments[best]
+    }
+
     /// The weight of a segment for this vertex, 0 where it has none.
     #[inline]
     pub fn weight_of(&self, segment: u16) -> f32 {

@@ -5,12 +5,14 @@ use std::sync::Arc;
 
 use rapier3d::data::arena::{Arena, Index};
 use rapier3d::dynamics::RigidBodyHandle;
-use rapier3d::geometry::InteractionGroups;
+use rapier3d::geometry::{Collider, ColliderHandle, InteractionGroups, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
 
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
-use crate::coupling::{CancelSettings, ContactMemories, FoundationSettings, PartCache, PartId, Ragdoll, RagdollStart};
+use crate::coupling::{
+    CancelSettings, ContactMemories, FoundationSettings, ObstacleError, PartCache, PartId, Ragdoll, RagdollStart,
+};
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
 use crate::math::Pose;
@@ -47,6 +49,9 @@ pub struct DeformationSettings {
     pub foundation: FoundationSettings,
     /// Factor on the stiffness of all contacts.
     pub stiffness: f32,
+    /// How deep heightfields and triangle meshes are solid behind their surface, in sizes of the body that meets them:
+    /// above 0. A body that goes in by less is found and led out on the right side.
+    pub surface_thickness: f32,
     /// Measure depths, gaps and volumes after each step (they cost time, and nothing depends on them).
     pub measure: bool,
 }
@@ -57,10 +62,14 @@ impl Default for DeformationSettings {
             cancel: CancelSettings::default(),
             foundation: FoundationSettings::default(),
             stiffness: 1.0,
+            surface_thickness: SURFACE_THICKNESS,
             measure: true,
         }
     }
 }
+
+/// The usual [`DeformationSettings::surface_thickness`]: more than twice as deep as bodies are expected to go in.
+pub const SURFACE_THICKNESS: f32 = 1.0;
 
 /// Why a body was not inserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -228,6 +237,24 @@ impl DeformationWorld {
     /// All bodies.
     pub fn iter(&self) -> impl Iterator<Item = (ElasticBodyHandle, &ElasticBody)> {
         self.entries.iter().map(|(index, entry)| (ElasticBodyHandle(index), &entry.body))
+    }
+
+    /// Makes an obstacle ready before a body meets it: for a triangle mesh of 100,000 triangles it takes a moment, which
+    /// the first step near it would take otherwise.
+    ///
+    /// # Errors
+    /// [`ObstacleError`] for a collider that has no convex parts.
+    pub fn prepare(&mut self, handle: ColliderHandle, collider: &Collider) -> Result<(), ObstacleError> {
+        self.parts.prepare(handle, collider)
+    }
+
+    /// From now on a collider is taken for `shape` by the elastic bodies, in the same place, until it is removed; `None`
+    /// undoes it. Rapier goes on with the collider's own shape.
+    ///
+    /// So a triangle mesh that rapier collides with can be a compound of convex parts, made by
+    /// [`crate::coupling::decompose_cached`], for the skin: fewer parts, and solid all through.
+    pub fn stand_in(&mut self, handle: ColliderHandle, shape: Option<SharedShape>) {
+        self.parts.stand_in(handle, shape);
     }
 
     /// What the last step did.

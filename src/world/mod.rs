@@ -5,6 +5,6 @@ mod report;
 mod stages;
 mod view;
 
-pub use deformation_world::{DeformationSettings, DeformationWorld, ElasticBodyHandle, InsertError};
+pub use deformation_world::{DeformationSettings, DeformationWorld, ElasticBodyHandle, InsertError, SURFACE_THICKNESS};
 pub use report::{BodyReport, Frozen, StageTimes, StepReport};
 pub use view::{RapierSets, RapierView};

@@ -122,7 +122,9 @@ impl DeformationWorld {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             let own = |handle: rapier3d::dynamics::RigidBodyHandle| self.own.contains(&handle.into_raw_parts());
             let region = region_of(entry);
-            encounter.parts = obstacles_near(&query, &region, entry.groups, &own, &mut self.parts, &mut refused);
+            let thickness = self.settings.surface_thickness * entry.size;
+            encounter.parts =
+                obstacles_near(&query, &region, thickness, entry.groups, &own, &mut self.parts, &mut refused);
             let margin = swing(entry);
             encounter.near = proximities(&entry.body, &encounter.parts, margin, &mut entry.memories);
             if entry.body.settle_springs(SETTLED * entry.size) {

@@ -4,6 +4,7 @@
 pub mod blend;
 pub mod camel;
 pub mod field;
+pub mod head;
 pub mod icosphere;
 pub mod mend;
 pub mod mesh;

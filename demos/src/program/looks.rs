@@ -42,13 +42,16 @@ pub fn obstacle(obstacle: &Obstacle) -> Material {
     let bar = Material { colour: Vec3::new(0.07, 0.09, 0.13), roughness: 0.4, clearcoat: 0.6, ..Material::default() };
     let usual = match &obstacle.shape {
         ObstacleShape::Cylinder { .. } | ObstacleShape::Capsule { .. } => bar,
-        ObstacleShape::Cuboid { half_extents } if is_slender(*half_extents) => bar,
-        ObstacleShape::Cuboid { .. } | ObstacleShape::Cone { .. } => wall,
+        ObstacleShape::Cuboid { half_extents, .. } if is_slender(*half_extents) => bar,
         ObstacleShape::Ball { .. } => Material::glossy(Vec3::new(0.42, 0.07, 0.05)),
-        ObstacleShape::Mesh { .. } => stone,
+        ObstacleShape::Mesh { .. } | ObstacleShape::TriangleMesh { .. } | ObstacleShape::HeightField { .. } => stone,
+        ObstacleShape::Ring { .. } => {
+            Material { colour: Vec3::new(0.16, 0.17, 0.19), roughness: 0.28, ..Material::steel() }
+        }
+        _ => wall,
     };
     let solid = match obstacle.colour {
-        Some(colour) => Material { colour: linear(colour), metallic: 0.0, ..usual },
+        Some(colour) => Material { colour: linear(colour), ..usual },
         None => usual,
     };
     if obstacle.opacity >= 1.0 {
@@ -69,10 +72,10 @@ fn is_slender(half_extents: Vec3) -> bool {
 
 /// The ground that an obstacle is, if it is one.
 pub fn ground(obstacle: &Obstacle) -> Option<Ground> {
-    let ObstacleShape::Cuboid { half_extents } = obstacle.shape else { return None };
+    let ObstacleShape::Cuboid { half_extents, rounding: 0.0 } = obstacle.shape else { return None };
     let level = (obstacle.pose.rotation * Vec3::Y).y > 0.999_999;
     let wide = half_extents.x.min(half_extents.z) * 2.0 >= GROUND_WIDTH;
-    if obstacle.is_moving() || !level || !wide || obstacle.opacity < 1.0 {
+    if !obstacle.is_fixed() || !level || !wide || obstacle.opacity < 1.0 {
         return None;
     }
     let usual = Ground::default();

@@ -95,16 +95,16 @@ fn add_parts(overlay: &mut Overlay, obstacle: &ObstacleBody, transform: Mat4) {
     let ends = |half: f32| [-half, half].map(|y| transform.transform_point3(Vec3::Y * y));
     match &obstacle.obstacle.shape {
         ObstacleShape::Ball { radius } => overlay.sphere(transform, *radius, PART),
-        ObstacleShape::Cuboid { half_extents } => overlay.cuboid(transform, *half_extents, PART),
+        ObstacleShape::Cuboid { half_extents, rounding: 0.0 } => overlay.cuboid(transform, *half_extents, PART),
         ObstacleShape::Capsule { half_height, radius } => {
             let [a, b] = ends(*half_height);
             overlay.capsule(a, b, *radius, PART);
         }
-        ObstacleShape::Cylinder { half_height, radius } => {
+        ObstacleShape::Cylinder { half_height, radius, rounding: 0.0 } => {
             let [a, b] = ends(*half_height);
             overlay.cylinder(a, b, *radius, PART);
         }
-        ObstacleShape::Cone { .. } | ObstacleShape::Mesh { .. } => {
+        _ => {
             for part in &obstacle.parts {
                 overlay.triangles(transform * part.pose.to_mat4(), &part.positions, &part.triangles, PART);
             }

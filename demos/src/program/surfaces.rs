@@ -2,7 +2,7 @@
 
 use crate::render::{MeshData, shapes};
 use crate::scene::ObstacleShape;
-use crate::simulation::ObstacleBody;
+use crate::simulation::{ObstacleBody, ring_surface};
 
 use super::creases::creased;
 
@@ -15,13 +15,22 @@ pub fn surface(obstacle: &ObstacleBody) -> MeshData {
     let bevel = |side: f32| BEVEL.min(BEVEL_SHARE * side);
     match &obstacle.obstacle.shape {
         ObstacleShape::Ball { radius } => shapes::ball(*radius),
-        ObstacleShape::Cuboid { half_extents } => shapes::cuboid(*half_extents, bevel(half_extents.min_element())),
+        ObstacleShape::Cuboid { half_extents, rounding } if *rounding > 0.0 => {
+            shapes::cuboid(*half_extents + *rounding, *rounding)
+        }
+        ObstacleShape::Cuboid { half_extents, .. } => shapes::cuboid(*half_extents, bevel(half_extents.min_element())),
         ObstacleShape::Capsule { half_height, radius } => shapes::capsule(*half_height, *radius),
-        ObstacleShape::Cylinder { half_height, radius } => {
+        ObstacleShape::Cylinder { half_height, radius, rounding } if *rounding > 0.0 => {
+            shapes::cylinder(half_height + rounding, radius + rounding, *rounding)
+        }
+        ObstacleShape::Cylinder { half_height, radius, .. } => {
             shapes::cylinder(*half_height, *radius, bevel(half_height.min(*radius)))
         }
-        ObstacleShape::Cone { .. } => parts(obstacle),
-        ObstacleShape::Mesh { .. } => match &obstacle.mesh {
+        ObstacleShape::Ring { radius, thickness } => {
+            let (positions, normals, triangles) = ring_surface(*radius, *thickness);
+            MeshData { positions, normals, indices: triangles.into_flattened() }
+        }
+        _ => match &obstacle.mesh {
             Some(mesh) => creased(&mesh.positions, &mesh.triangles),
             None => parts(obstacle),
         },

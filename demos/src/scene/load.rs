@@ -1,8 +1,13 @@
 //! Reading a scene file: every fault is told with the file, the line and the key.
 
 use super::checks::{At, LARGEST};
-use super::raw::{RawBody, RawObstacle, RawPath, RawScene, RawShape, RawSpin};
-use super::types::{Body, Camera, MAX_DT, MAX_DURATION, Obstacle, ObstaclePath, ObstacleShape, PathKind, Scene, Spin};
+use super::dragger::dragger;
+use super::raw::{RawBody, RawObstacle, RawPath, RawScene, RawSpin};
+use super::shape::shape;
+use super::shape_types::ObstacleShape;
+use super::types::{
+    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene, Spin,
+};
 use pliant::elastic::{TomlError, TomlText, did_you_mean};
 use pliant::math::Vec3;
 use std::collections::HashMap;
@@ -35,13 +40,19 @@ pub fn load_scene(path: impl AsRef<Path>) -> Result<Scene, TomlError> {
         gravity: at.finite("gravity", raw.gravity)?,
         softness: raw.softness.map(|s| at.above_zero("softness", s, 10.0)).transpose()?,
         camera: camera(&at, &raw)?,
-        bodies,
         obstacles: raw
             .obstacle
             .iter()
             .enumerate()
             .map(|(i, o)| obstacle(&at.item("obstacle", i), o))
             .collect::<Result<_, _>>()?,
+        draggers: raw
+            .dragger
+            .iter()
+            .enumerate()
+            .map(|(i, d)| dragger(&at.item("dragger", i), d, &bodies))
+            .collect::<Result<_, _>>()?,
+        bodies,
         name: raw.name,
     })
 }
@@ -71,11 +82,14 @@ fn body(at: &At, raw: &RawBody) -> Result<Body, TomlError> {
 }
 
 fn obstacle(at: &At, raw: &RawObstacle) -> Result<Obstacle, TomlError> {
+    let shape = shape(&at.table("shape"), &raw.shape)?;
     Ok(Obstacle {
         name: raw.name.clone(),
-        shape: shape(&at.table("shape"), &raw.shape)?,
+        dynamic: dynamic(at, raw, &shape)?,
+        shape,
         pose: at.pose(raw.position, raw.rotation_degrees)?,
         friction: raw.friction.map(|f| at.between("friction", f, 0.0, f32::MAX)).transpose()?,
+        restitution: raw.restitution.map(|r| at.between("restitution", r, 0.0, 1.0)).transpose()?,
         colour: at.colour(raw.colour)?,
         opacity: at.between("opacity", raw.opacity.unwrap_or(1.0), 0.0, 1.0)?,
         path: raw.path.as_ref().map(|p| path(&at.table("path"), p)).transpose()?,
@@ -83,64 +97,42 @@ fn obstacle(at: &At, raw: &RawObstacle) -> Result<Obstacle, TomlError> {
     })
 }
 
-/// The keys of each kind of shape, the needed ones first and how many they are.
-const SHAPES: [(&str, &[&str], usize); 6] = [
-    ("ball", &["radius"], 1),
-    ("cuboid", &["half_extents"], 1),
-    ("capsule", &["half_height", "radius"], 2),
-    ("cylinder", &["half_height", "radius"], 2),
-    ("cone", &["half_height", "radius"], 2),
-    ("mesh", &["file", "scale", "max_parts"], 1),
-];
-
-fn shape(at: &At, raw: &RawShape) -> Result<ObstacleShape, TomlError> {
-    let kind = raw.kind.as_str();
-    let Some((_, keys, needed)) = SHAPES.iter().find(|s| s.0 == kind) else {
-        let hint = did_you_mean(kind, SHAPES.map(|s| s.0));
-        return Err(at.error("kind", format!("is no known shape: `{kind}`{hint}")));
-    };
-    let given = [
-        ("radius", raw.radius.is_some()),
-        ("half_height", raw.half_height.is_some()),
-        ("half_extents", raw.half_extents.is_some()),
-        ("file", raw.file.is_some()),
-        ("scale", raw.scale.is_some()),
-        ("max_parts", raw.max_parts.is_some()),
+/// The mass and motion of an obstacle that rapier moves, if it does.
+fn dynamic(at: &At, raw: &RawObstacle, shape: &ObstacleShape) -> Result<Option<Dynamic>, TomlError> {
+    let keys = [
+        ("mass", raw.mass.is_some()),
+        ("density", raw.density.is_some()),
+        ("velocity", raw.velocity.is_some()),
+        ("angular_velocity", raw.angular_velocity.is_some()),
     ];
-    for (key, is_given) in given {
-        match keys.iter().position(|k| *k == key) {
-            None if is_given => return Err(at.error(key, format!("is no key of a {kind}; remove it"))),
-            Some(place) if place < *needed && !is_given => {
-                return Err(at.error(key, format!("is missing: a {kind} needs it")));
-            }
-            _ => {}
+    if !raw.dynamic {
+        return match keys.into_iter().find(|(_, given)| *given) {
+            Some((key, _)) => Err(at.error(key, "is a key of dynamic obstacles; add `dynamic = true` or remove it")),
+            None => Ok(None),
+        };
+    }
+    for (key, given) in [("path", raw.path.is_some()), ("spin", raw.spin.is_some())] {
+        if given {
+            return Err(at.error(key, "is given for a dynamic obstacle, which rapier moves; remove one of them"));
         }
     }
-    let length = |key, value: Option<f32>| at.above_zero(key, value.unwrap_or(1.0), LARGEST);
-    let radius = length("radius", raw.radius)?;
-    let half_height = length("half_height", raw.half_height)?;
-    Ok(match kind {
-        "ball" => ObstacleShape::Ball { radius },
-        "capsule" => ObstacleShape::Capsule { half_height, radius },
-        "cylinder" => ObstacleShape::Cylinder { half_height, radius },
-        "cone" => ObstacleShape::Cone { half_height, radius },
-        "cuboid" => {
-            let sides = raw.half_extents.unwrap_or([1.0; 3]);
-            sides.iter().try_for_each(|s| at.above_zero("half_extents", *s, LARGEST).map(drop))?;
-            ObstacleShape::Cuboid { half_extents: Vec3::from(sides) }
-        }
-        _ => {
-            if raw.max_parts.is_some_and(|parts| !(1..=MAX_PARTS).contains(&parts)) {
-                return Err(at.error("max_parts", format!("must be at least 1 and at most {MAX_PARTS}")));
-            }
-            let file = at.file("file", raw.file.as_deref().unwrap_or(Path::new("")))?;
-            ObstacleShape::Mesh { file, scale: length("scale", raw.scale)?, max_parts: raw.max_parts }
-        }
-    })
+    if !shape.has_volume() {
+        return Err(at.error("dynamic", "is given for a shape without a volume, which has no mass"));
+    }
+    let mass = match (raw.mass, raw.density) {
+        (Some(_), Some(_)) => return Err(at.error("density", "is given beside `mass`; one of them is enough")),
+        (Some(mass), None) => ObstacleMass::Mass(at.above_zero("mass", mass, f32::MAX)?),
+        (None, density) => ObstacleMass::Density(at.above_zero("density", density.unwrap_or(DENSITY), f32::MAX)?),
+    };
+    Ok(Some(Dynamic {
+        mass,
+        velocity: at.finite("velocity", raw.velocity.unwrap_or_default())?,
+        angular_velocity: at.finite("angular_velocity", raw.angular_velocity.unwrap_or_default())?,
+    }))
 }
 
-/// Most convex parts of a mesh: more take minutes to find and do not look better.
-const MAX_PARTS: u32 = 1024;
+/// Density of a dynamic obstacle where the file gives none, in kg/m³: that of light wood.
+const DENSITY: f32 = 500.0;
 
 fn path(at: &At, raw: &RawPath) -> Result<ObstaclePath, TomlError> {
     if raw.points.len() < 2 {

@@ -20,6 +20,8 @@ pub(super) struct RawScene {
     pub body: Vec<RawBody>,
     #[serde(default)]
     pub obstacle: Vec<RawObstacle>,
+    #[serde(default)]
+    pub dragger: Vec<RawDragger>,
 }
 
 fn sixtieth() -> f32 {
@@ -69,6 +71,13 @@ pub(super) struct RawObstacle {
     #[serde(default)]
     pub rotation_degrees: Triple,
     pub friction: Option<f32>,
+    pub restitution: Option<f32>,
+    #[serde(default)]
+    pub dynamic: bool,
+    pub mass: Option<f32>,
+    pub density: Option<f32>,
+    pub velocity: Option<Triple>,
+    pub angular_velocity: Option<Triple>,
     pub colour: Option<Triple>,
     pub opacity: Option<f32>,
     pub path: Option<RawPath>,
@@ -82,9 +91,59 @@ pub(super) struct RawShape {
     pub radius: Option<f32>,
     pub half_height: Option<f32>,
     pub half_extents: Option<Triple>,
+    pub rounding: Option<f32>,
+    pub thickness: Option<f32>,
+    pub normal: Option<Triple>,
+    pub points: Option<Vec<Triple>>,
     pub file: Option<PathBuf>,
     pub scale: Option<f32>,
     pub max_parts: Option<u32>,
+    pub one_sided: Option<bool>,
+    pub heights: Option<Vec<Vec<f32>>>,
+    pub size: Option<[f32; 2]>,
+    pub voxel_size: Option<f32>,
+    pub cells: Option<Vec<[i32; 3]>>,
+    pub shapes: Option<Vec<RawShape>>,
+    /// Of a member of a compound.
+    pub position: Option<Triple>,
+    pub rotation_degrees: Option<Triple>,
+}
+
+impl RawShape {
+    /// The keys of all kinds, and whether they are given.
+    pub fn given(&self) -> [(&'static str, bool); 16] {
+        [
+            ("radius", self.radius.is_some()),
+            ("half_height", self.half_height.is_some()),
+            ("half_extents", self.half_extents.is_some()),
+            ("rounding", self.rounding.is_some()),
+            ("thickness", self.thickness.is_some()),
+            ("normal", self.normal.is_some()),
+            ("points", self.points.is_some()),
+            ("file", self.file.is_some()),
+            ("scale", self.scale.is_some()),
+            ("max_parts", self.max_parts.is_some()),
+            ("one_sided", self.one_sided.is_some()),
+            ("heights", self.heights.is_some()),
+            ("size", self.size.is_some()),
+            ("voxel_size", self.voxel_size.is_some()),
+            ("cells", self.cells.is_some()),
+            ("shapes", self.shapes.is_some()),
+        ]
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawDragger {
+    pub body: String,
+    pub pulls: String,
+    #[serde(default)]
+    pub point: Triple,
+    pub keys: Vec<[f32; 4]>,
+    pub radius: Option<f32>,
+    pub frequency: Option<f32>,
+    pub steady: Option<bool>,
 }
 
 #[derive(Deserialize)]

@@ -1,5 +1,7 @@
 //! The data of a scene, all checked: finite, in range, files that exist.
 
+use super::dragger::Dragger;
+use super::shape_types::ObstacleShape;
 use pliant::math::{Pose, Vec3};
 use std::path::PathBuf;
 
@@ -28,6 +30,8 @@ pub struct Scene {
     pub bodies: Vec<Body>,
     /// Obstacles.
     pub obstacles: Vec<Obstacle>,
+    /// Hands that follow a script.
+    pub draggers: Vec<Dragger>,
 }
 
 /// A camera.
@@ -58,7 +62,7 @@ pub struct Body {
     pub colour: Option<[f32; 3]>,
 }
 
-/// A rigid obstacle: fixed, or moved along a path.
+/// A rigid obstacle: fixed, moved along a path, or moved by rapier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
     /// Name, if it has one.
@@ -69,6 +73,10 @@ pub struct Obstacle {
     pub pose: Pose,
     /// Coulomb friction coefficient, not negative.
     pub friction: Option<f32>,
+    /// Coefficient of restitution between rigid bodies, from 0 to 1.
+    pub restitution: Option<f32>,
+    /// Set where rapier moves it; it has neither path nor spin then.
+    pub dynamic: Option<Dynamic>,
     /// Red, green and blue from 0 to 1.
     pub colour: Option<[f32; 3]>,
     /// From 0 for invisible to 1, the default.
@@ -79,49 +87,24 @@ pub struct Obstacle {
     pub spin: Option<Spin>,
 }
 
-/// The shape of an obstacle. All lengths are in metres and positive; axes of round shapes are along y.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ObstacleShape {
-    /// A ball.
-    Ball {
-        /// Radius.
-        radius: f32,
-    },
-    /// A box.
-    Cuboid {
-        /// Half of each side.
-        half_extents: Vec3,
-    },
-    /// A capsule.
-    Capsule {
-        /// Half of the length without the caps.
-        half_height: f32,
-        /// Radius.
-        radius: f32,
-    },
-    /// A cylinder.
-    Cylinder {
-        /// Half of the height.
-        half_height: f32,
-        /// Radius.
-        radius: f32,
-    },
-    /// A cone, its tip up.
-    Cone {
-        /// Half of the height.
-        half_height: f32,
-        /// Radius at the foot.
-        radius: f32,
-    },
-    /// A mesh that is cut into convex parts.
-    Mesh {
-        /// The OBJ file, which exists.
-        file: PathBuf,
-        /// Scale.
-        scale: f32,
-        /// At most this many convex parts, at least 1.
-        max_parts: Option<u32>,
-    },
+/// An obstacle that rapier moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dynamic {
+    /// How heavy it is.
+    pub mass: ObstacleMass,
+    /// Velocity at the start in metres a second.
+    pub velocity: Vec3,
+    /// Angular velocity at the start in radians a second.
+    pub angular_velocity: Vec3,
+}
+
+/// How heavy a dynamic obstacle is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ObstacleMass {
+    /// Mass in kilograms, positive.
+    Mass(f32),
+    /// Kilograms a cubic metre, positive.
+    Density(f32),
 }
 
 /// A path of straight pieces run through at an even pace.
@@ -191,5 +174,10 @@ impl Obstacle {
     /// True when the obstacle moves by a path or a spin.
     pub fn is_moving(&self) -> bool {
         self.path.is_some() || self.spin.is_some()
+    }
+
+    /// True when the obstacle stays where it is.
+    pub fn is_fixed(&self) -> bool {
+        !self.is_moving() && self.dynamic.is_none()
     }
 }

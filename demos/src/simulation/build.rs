@@ -24,6 +24,14 @@ pub enum BuildError {
     /// The mesh of an obstacle is wrong.
     #[error(transparent)]
     Mesh(MeshError),
+    /// An obstacle's shape cannot be made.
+    #[error("obstacle {name}: {message}")]
+    Shape {
+        /// The obstacle.
+        name: String,
+        /// Why.
+        message: String,
+    },
     /// An obstacle has no convex parts.
     #[error("obstacle {name}: {error}")]
     Parts {

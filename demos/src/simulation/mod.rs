@@ -3,9 +3,16 @@
 mod build;
 mod grab;
 mod obstacle;
+mod pull;
+mod ring;
 mod running;
+mod scripted;
+mod shape;
+mod shown_part;
 
 pub use build::BuildError;
 pub use grab::Hit;
-pub use obstacle::{ObstacleBody, ShownPart};
+pub use obstacle::ObstacleBody;
+pub use ring::ring_surface;
 pub use running::{Actor, Simulation};
+pub use shown_part::ShownPart;

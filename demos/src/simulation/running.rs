@@ -9,6 +9,7 @@ use rapier3d::pipeline::PhysicsWorld;
 use super::build::{BuildError, Built, build};
 use super::grab::Grab;
 use super::obstacle::ObstacleBody;
+use super::scripted::Hand;
 use crate::scene::Scene;
 
 /// An elastic body of the scene.
@@ -39,6 +40,7 @@ pub struct Simulation {
     /// Milliseconds that rapier took for the last step.
     pub rigid_ms: f32,
     pub(super) grab: Option<Grab>,
+    pub(super) hands: Vec<Hand>,
 }
 
 impl Simulation {
@@ -48,7 +50,8 @@ impl Simulation {
     /// [`BuildError`] where a rig or a mesh is wrong.
     pub fn new(scene: Scene, seed: u64) -> Result<Self, BuildError> {
         let Built { physics, deformation, actors, obstacles } = build(&scene, seed)?;
-        Ok(Self { scene, physics, deformation, actors, obstacles, frame: 0, rigid_ms: 0.0, grab: None })
+        let hands = scene.draggers.iter().map(Hand::new).collect();
+        Ok(Self { scene, physics, deformation, actors, obstacles, frame: 0, rigid_ms: 0.0, grab: None, hands })
     }
 
     /// Seconds simulated.
@@ -61,9 +64,10 @@ impl Simulation {
         (f64::from(self.scene.duration) / f64::from(self.scene.dt)).round().max(1.0) as u64
     }
 
-    /// One step: obstacles move, the dragged body is pulled, rapier steps, pliant deforms.
+    /// One step: obstacles move, held bodies are pulled, rapier steps, pliant deforms.
     pub fn step(&mut self) {
         self.move_obstacles();
+        self.follow_scripts();
         self.pull_grabbed();
         let clock = Instant::now();
         self.physics.step();
