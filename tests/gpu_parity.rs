@@ -15,8 +15,8 @@ mod random;
 use device::Gpu;
 use fastrand::Rng;
 use palettes::{Skin, random_palette, skin};
-use pliant::elastic::{Palette, SegmentEntry, SpringStage};
-use pliant::field::Integrator;
+use pliant::elastic::{DragField, DragStage, Palette, SegmentEntry, SpringStage};
+use pliant::field::{Integrator, SpringField};
 use pliant::gpu::{GpuBody, GpuError, GpuSkin};
 use pliant::math::{Pose, Quat, Vec3};
 
@@ -79,6 +79,30 @@ fn every_kind_of_part_agrees_by_itself() {
         let (position, normal, _) = differences(gpu, &skin, &palette);
         assert!(position < 1e-4, "kind {kind}: positions {position:e}");
         assert!(normal < 5e-3, "kind {kind}: normals {normal:e}");
+    }
+}
+
+#[test]
+fn draggers_deform_the_same_on_the_device() {
+    let Some(gpu) = Gpu::open() else { return };
+    let skin = skin(3, 4);
+    let motion = Pose::from_parts(Vec3::new(2.0, 1.0, -1.0), Quat::from_rotation_z(0.4));
+    let entry = SegmentEntry { motion, local: SpringStage::default(), global: SpringStage::default() };
+    let held = [10, 200, 400].map(|v| (skin.positions[v], skin.weights[v]));
+    let field = |(x, weights): &(Vec3, _)| {
+        let p = motion.transform_point(*x);
+        DragField::new(SpringField { p, q: p + motion.rotation * *x * 0.8, radius: 0.7 }, weights)
+    };
+    let drags = DragStage::certified(held.iter().map(field).collect(), Integrator::Midpoint, 24);
+    for integrator in INTEGRATORS {
+        let palette =
+            Palette { segments: vec![entry.clone(); 4], drags: drags.clone(), integrator, ..Palette::default() };
+        let pulled = palette.deform(held[0].0, &held[0].1).distance(motion.transform_point(held[0].0));
+        assert!(pulled > 0.5, "{pulled}");
+        let (position, normal, _) = differences(gpu, &skin, &palette);
+        // As above, for a body of size 2.
+        assert!(position < 2e-4, "{integrator:?}: positions {position:e}");
+        assert!(normal < 5e-3, "{integrator:?}: normals {normal:e}");
     }
 }
 

@@ -10,12 +10,15 @@ use pliant_demos::modeller::mesh::Mesh;
 use pliant_demos::modeller::obj;
 use pliant_demos::modeller::quality::Quality;
 use pliant_demos::modeller::rock::rock;
+use pliant_demos::modeller::toys::{bean, die};
 
 fn main() -> Result<()> {
     let folder = folder();
     std::fs::create_dir_all(&folder).with_context(|| format!("creating {}", folder.display()))?;
     write(&folder.join("ball.obj"), &icosphere(0.5, 4))?;
     write(&folder.join("rock.obj"), &rock())?;
+    write(&folder.join("die.obj"), &die())?;
+    write(&folder.join("bean.obj"), &bean())?;
     write(&folder.join("head.obj"), &head())?;
     write(&folder.join("camel.obj"), &camel())
 }

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::body_draggers::Draggers;
 use super::body_normals::{BodyNormals, Normals};
 use super::palette::{Palette, SegmentEntry, SpringStage};
 use super::rest::SegmentSkin;
-use super::rig::{ElasticRig, MAX_INFLUENCES, MassSpringSetRig};
+use super::rig::{ElasticRig, MAX_INFLUENCES, MassSpringSetRig, SkinWeights};
 use super::skin_order::SkinOrder;
 use crate::field::{Integrator, LANES, SpringField};
 use crate::math::{Pose, Vec3};
@@ -69,7 +70,8 @@ pub struct ElasticBody {
     skins: Arc<[SegmentSkin]>,
     motions: Vec<Pose>,
     sets: Vec<MassSpringSet>,
-    palette: Palette,
+    pub(super) palette: Palette,
+    pub(super) draggers: Draggers,
     positions: Vec<Vec3>,
     normals: BodyNormals,
     order: Arc<SkinOrder>,
@@ -96,6 +98,7 @@ impl ElasticBody {
             motions,
             sets,
             palette: Palette::default(),
+            draggers: Draggers::default(),
             positions,
             settings: DeformSettings::default(),
         };
@@ -109,6 +112,7 @@ impl ElasticBody {
     pub fn twin(&self) -> Self {
         let mut body = self.clone();
         body.settings = DeformSettings::default();
+        body.draggers = Draggers::default();
         body.place(&vec![Pose::IDENTITY; self.motions.len()]);
         body.positions.copy_from_slice(&self.rig.mesh.positions);
         body.normals.normals.copy_from_slice(&self.rig.mesh.normals);
@@ -171,9 +175,10 @@ impl ElasticBody {
         for (state, set) in self.sets.iter_mut().zip(&self.rig.sets) {
             *state = MassSpringSet::at_rest(motions[set.segment].transform_point(set.anchor));
         }
+        self.draggers.list.iter_mut().for_each(|(_, dragger)| dragger.place(motions));
     }
 
-    /// Moves the segments and lets the mass-spring sets follow over `h` seconds.
+    /// Moves the segments and lets the mass-spring sets and what draggers let go follow over `h` seconds.
     ///
     /// Returns false, and puts the sets to rest, where a state came out that is not finite; false too unless there is
     /// one motion a segment.
@@ -192,17 +197,22 @@ impl ElasticBody {
                 finite = false;
             }
         }
+        self.draggers.list.retain_mut(|(_, dragger)| dragger.step(motions, h));
         finite
     }
 
-    /// True when no mass-spring set swings by more than `tolerance` metres any more; they are then put to rest exactly.
+    /// True when no mass-spring set swings by more than `tolerance` metres any more and there are no draggers; the sets are
+    /// then put to rest exactly.
     pub fn settle_springs(&mut self, tolerance: f32) -> bool {
         // The energy of the oscillation, as the displacement at which it would turn back.
         let swings = |(set, rig): (&MassSpringSet, &MassSpringSetRig)| {
             let turning = set.velocity / rig.spring.angular_frequency();
             set.displacement().length_squared() + turning.length_squared() > tolerance * tolerance
         };
-        if self.settings.gravity != Vec3::ZERO || self.sets.iter().zip(&self.rig.sets).any(swings) {
+        if self.settings.gravity != Vec3::ZERO
+            || !self.draggers.list.is_empty()
+            || self.sets.iter().zip(&self.rig.sets).any(swings)
+        {
             return false;
         }
         for set in &mut self.sets {
@@ -211,7 +221,7 @@ impl ElasticBody {
         true
     }
 
-    /// Builds the palette of this frame from the segments and sets; it has no collision passes yet.
+    /// Builds the palette of this frame from the segments, sets and draggers; it has no collision passes yet.
     pub fn build_palette(&mut self) {
         let DeformSettings { integrator, max_steps, level_of_detail, enabled, .. } = self.settings;
         self.palette.integrator = integrator;
@@ -229,6 +239,7 @@ impl ElasticBody {
             let [local, global] = stages.map(|fields| SpringStage::certified(fields, integrator, max_steps));
             self.palette.segments.push(SegmentEntry { motion: *motion, local, global });
         }
+        self.build_drags();
     }
 
     /// True when every vertex is finite.
@@ -236,7 +247,7 @@ impl ElasticBody {
         self.positions.iter().all(|x| x.is_finite())
     }
 
-    /// Deforms every vertex by the spring stages alone, in parallel: equation (18).
+    /// Deforms every vertex by all but the collision passes, in parallel: equation (18), then the draggers.
     pub fn deform_springs(&mut self) {
         let Self { rig, palette, positions, order, moved, .. } = self;
         let batches = order.pairs.par_iter().with_min_len(BATCHES);
@@ -254,16 +265,25 @@ impl ElasticBody {
                 .filter(|&k| slots[k] != u32::MAX)
                 .fold(Vec3::ZERO, |sum, k| sum + moved[slots[k] as usize] * skin.weights[k]);
         }
+        if !self.palette.drags.fields.is_empty() {
+            self.carry(|x, skins, palette| palette.drags.flow_wide(x, skins, palette.integrator));
+        }
     }
 
     /// Carries every vertex through one more collision pass, in parallel, and keeps the pass in the palette.
     pub fn deform_collision(&mut self, pass: super::CollisionPass) {
+        self.carry(|x, skins, palette| pass.flow_wide(x, skins, palette.integrator));
+        self.palette.passes.push(pass);
+    }
+
+    /// Carries every vertex from where it is, eight at a time.
+    fn carry(&mut self, flow: impl Fn([Vec3; LANES], [&SkinWeights; LANES], &Palette) -> [Vec3; LANES] + Sync) {
         let Self { rig, palette, positions, order, moved, .. } = self;
         let batches = order.vertices.par_iter().with_min_len(BATCHES);
         batches
             .map(|batch| {
                 let x = batch.map(|v| positions[v as usize]);
-                pass.flow_wide(x, batch.map(|v| &rig.weights[v as usize]), palette.integrator)
+                flow(x, batch.map(|v| &rig.weights[v as usize]), palette)
             })
             .collect_into_vec(moved);
         for (batch, moved) in order.vertices.iter().zip(moved.iter()) {
@@ -271,7 +291,6 @@ impl ElasticBody {
                 positions[v as usize] = x;
             }
         }
-        palette.passes.push(pass);
     }
 }
 

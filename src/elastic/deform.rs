@@ -1,4 +1,4 @@
-//! The deformation of one vertex: equation (18), then the collision passes. `deform.wgsl` is the twin of this file.
+//! The deformation of one vertex: equation (18), then the drag stage, then the collision passes. `deform.wgsl` is the twin of this file.
 
 use smallvec::SmallVec;
 
@@ -8,10 +8,10 @@ use crate::field::{Integrator, path_line};
 use crate::math::Vec3;
 
 impl Palette {
-    /// Deforms the rest position `x` of a vertex: springs, then collisions.
+    /// Deforms the rest position `x` of a vertex: springs, then draggers, then collisions.
     #[inline]
     pub fn deform(&self, x: Vec3, skin: &SkinWeights) -> Vec3 {
-        self.collide(self.spring(x, skin), skin)
+        self.collide(self.drags.flow(self.spring(x, skin), skin, self.integrator), skin)
     }
 
     /// Equation (18) with the local and the global stage: `x' = Σ w_k d_k(M_k x)`. Pairs of weight zero are skipped.

@@ -1,9 +1,12 @@
 //! Elastic bodies: shared rest data and the deformation of the skin.
 
 mod body;
+mod body_draggers;
 mod body_normals;
 mod deform;
 mod deform_wide;
+mod drag_stage;
+mod dragger;
 mod palette;
 mod rest;
 mod rig;
@@ -20,6 +23,8 @@ mod weights;
 
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
 pub use body_normals::Normals;
+pub use drag_stage::{DragField, DragStage, NO_SEGMENT};
+pub use dragger::{DEFAULT_RELEASE, Dragger, DraggerError, DraggerHandle, DraggerStart, Grip};
 pub use palette::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SpringStage};
 pub use rest::{SegmentSkin, SkinSample};
 pub use rig::{

@@ -3,6 +3,7 @@
 //! This is everything that the deformation of a vertex depends on besides its rest data; a few kilobytes that the
 //! vector unit of a processor or a compute pass reads alike (section 5.4).
 
+use super::drag_stage::DragStage;
 use crate::field::{HuggingField, Integrator, Lipschitz, SphereField, SpringField, usual_steps};
 use crate::math::{Pose, Vec3};
 
@@ -131,6 +132,8 @@ pub struct CollisionPass {
 pub struct Palette {
     /// One entry a segment.
     pub segments: Vec<SegmentEntry>,
+    /// Fields of the draggers, after the blend of the segments.
+    pub drags: DragStage,
     /// Collision passes, concatenated in order.
     pub passes: Vec<CollisionPass>,
     /// Integration rule of all stages.
@@ -142,6 +145,7 @@ impl Palette {
     pub fn most_steps(&self) -> u32 {
         let stage = |stage: &SpringStage| if stage.fields.is_empty() { 0 } else { stage.steps };
         let springs = self.segments.iter().map(|entry| stage(&entry.local).max(stage(&entry.global)));
-        springs.chain(self.passes.iter().map(|pass| pass.steps)).max().unwrap_or(0)
+        let drags = if self.drags.fields.is_empty() { 0 } else { self.drags.steps };
+        springs.chain([drags]).chain(self.passes.iter().map(|pass| pass.steps)).max().unwrap_or(0)
     }
 }

@@ -27,7 +27,7 @@ impl SkinOrder {
     /// The order of a skin with these weights and `segments` segments.
     pub fn new(weights: &[SkinWeights], segments: usize) -> Self {
         let mut sorted: Vec<u32> = (0..weights.len() as u32).collect();
-        sorted.sort_by_key(|&v| heaviest(&weights[v as usize]));
+        sorted.sort_by_key(|&v| weights[v as usize].heaviest());
         let mut pairs = Vec::new();
         let mut slots = vec![[u32::MAX; MAX_INFLUENCES]; weights.len()];
         for segment in 0..segments as u16 {
@@ -44,16 +44,6 @@ impl SkinOrder {
         }
         Self { vertices: batches(&sorted).collect(), pairs, slots }
     }
-}
-
-fn heaviest(skin: &SkinWeights) -> u16 {
-    let mut best = 0;
-    for k in 1..MAX_INFLUENCES {
-        if skin.weights[k] > skin.weights[best] {
-            best = k;
-        }
-    }
-    skin.segments[best]
 }
 
 fn batches(members: &[u32]) -> impl Iterator<Item = [u32; LANES]> + '_ {

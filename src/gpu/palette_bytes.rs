@@ -1,9 +1,10 @@
 //! The palette as the shader reads it: one array of four-word rows, written anew each frame.
 //!
 //! ```text
-//! header      integrator, number of passes, first pass, ε | origin
+//! header      integrator, number of passes, first pass, ε | origin | drag stage
 //! segments    rotation | translation | local stage | global stage       a stage: first field, count, steps
 //! springs     p, r_o | q
+//! drags       p, r_o | q | segments
 //! passes      first field, count, steps
 //! collisions  kind, first share, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape | patch, its width
 //! shares      of four segments a row                                 none where all skin takes all
@@ -19,10 +20,11 @@ use crate::elastic::{CollisionField, Palette, SpringStage};
 use crate::field::{ConvexHull, Integrator, PartShape};
 use crate::math::{Pose, Vec3};
 
-/// Rows of the header, of one segment, one spring field, one collision field and one hull triangle.
-pub(super) const HEADER: u32 = 2;
+/// Rows of the header, of one segment, one spring field, one drag field, one collision field and one hull triangle.
+pub(super) const HEADER: u32 = 3;
 pub(super) const SEGMENT: u32 = 4;
 pub(super) const SPRING: u32 = 2;
+pub(super) const DRAG: u32 = 3;
 pub(super) const COLLISION: u32 = 8;
 pub(super) const TRIANGLE: u32 = 4;
 
@@ -51,7 +53,9 @@ pub(super) type Row = [u32; 4];
 pub(super) fn pack(palette: &Palette, epsilon: f32, origin: Vec3, rows: &mut Vec<Row>) {
     let stages = || palette.segments.iter().flat_map(|entry| [&entry.local, &entry.global]);
     let first_spring = HEADER + SEGMENT * count(palette.segments.len());
-    let first_pass = first_spring + SPRING * stages().map(|stage| count(stage.fields.len())).sum::<u32>();
+    let first_drag = first_spring + SPRING * stages().map(|stage| count(stage.fields.len())).sum::<u32>();
+    let drags = &palette.drags;
+    let first_pass = first_drag + DRAG * count(drags.fields.len());
     let first_collision = first_pass + count(palette.passes.len());
     let collisions = palette.passes.iter().map(|pass| count(pass.fields.len())).sum::<u32>();
     let first_share = first_collision + COLLISION * collisions;
@@ -67,6 +71,7 @@ pub(super) fn pack(palette: &Palette, epsilon: f32, origin: Vec3, rows: &mut Vec
     };
     rows.push([integrator, count(palette.passes.len()), first_pass, epsilon.to_bits()]);
     rows.push(real(origin, 0.0));
+    rows.push([first_drag, count(drags.fields.len()), drags.steps, 0]);
 
     let mut next = first_spring;
     let mut stage_row = |stage: &SpringStage| {
@@ -82,6 +87,11 @@ pub(super) fn pack(palette: &Palette, epsilon: f32, origin: Vec3, rows: &mut Vec
     for field in stages().flat_map(|stage| &stage.fields) {
         rows.push(real(field.p - origin, field.radius));
         rows.push(real(field.q - origin, 0.0));
+    }
+    for drag in &drags.fields {
+        rows.push(real(drag.field.p - origin, drag.field.radius));
+        rows.push(real(drag.field.q - origin, 0.0));
+        rows.push(drag.segments.map(u32::from));
     }
     let mut next = first_collision;
     for pass in &palette.passes {

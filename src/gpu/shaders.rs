@@ -15,6 +15,7 @@ pub fn deform_shader() -> String {
         ("HEADER", layout::HEADER),
         ("SEGMENT", layout::SEGMENT),
         ("SPRING", layout::SPRING),
+        ("DRAG", layout::DRAG),
         ("COLLISION", layout::COLLISION),
         ("TRIANGLE", layout::TRIANGLE),
         ("FIELD_SPHERE", layout::FIELD_SPHERE),
@@ -34,6 +35,7 @@ pub fn deform_shader() -> String {
         include_str!("shaders/part_distance.wgsl"),
         include_str!("shaders/fields.wgsl"),
         include_str!("shaders/path_line.wgsl"),
+        include_str!("shaders/drag_stage.wgsl"),
         include_str!("shaders/deform.wgsl"),
         include_str!("shaders/tangent_normals.wgsl"),
     ] {

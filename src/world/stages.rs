@@ -254,7 +254,7 @@ fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Froze
 /// obstacle towards the next.
 fn swing(entry: &Entry) -> f32 {
     let springs = entry.body.sets().iter().map(|set| set.displacement().length()).fold(0.0, f32::max);
-    springs + CANCELLED * entry.size
+    springs + entry.body.drag_reach() + CANCELLED * entry.size
 }
 
 /// The farthest that the cancellation is expected to move the skin, as a fraction of the body's size.

@@ -1,7 +1,9 @@
 //! A skin with several segments, and random palettes for it.
 
 use fastrand::Rng;
-use pliant::elastic::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SkinWeights, SpringStage};
+use pliant::elastic::{
+    CollisionField, CollisionPass, DragField, DragStage, Palette, SegmentEntry, SegmentField, SkinWeights, SpringStage,
+};
 use pliant::field::{ConvexPart, HuggingField, Integrator, PartShape, Patch, PlacedPart, SphereField, SpringField};
 use pliant::math::{Pose, Quat, Vec3};
 
@@ -97,7 +99,16 @@ pub fn random_palette(rng: &mut Rng, segments: usize, integrator: Integrator) ->
         });
         CollisionPass { fields: fields.collect(), steps: 8 }
     });
-    Palette { segments: entries, passes: passes.collect(), integrator }
+    let passes: Vec<_> = passes.collect();
+    let count = rng.usize(0..4);
+    let drags = (0..count).map(|_| {
+        let p = place.translation + direction(rng);
+        let field = SpringField { p, q: p + direction(rng) * between(rng, 0.1, 0.5), radius: between(rng, 0.4, 1.2) };
+        let held = blend(between(rng, -1.0, 1.0), segments);
+        DragField::new(field, &held)
+    });
+    let drags = DragStage::certified(drags.collect(), integrator, 40);
+    Palette { segments: entries, drags, passes, integrator }
 }
 
 /// One segment at rest and one hugging field with a part of the given kind.
@@ -106,5 +117,5 @@ pub fn single_part(rng: &mut Rng, kind: usize) -> Palette {
     let entry = SegmentEntry { motion: pose(rng, 1.0), local: stage.clone(), global: stage };
     let field = CollisionField::Hugging(press(rng, kind, entry.motion.translation));
     let passes = vec![CollisionPass { fields: vec![SegmentField { shares: [1.0].into(), field }], steps: 12 }];
-    Palette { segments: vec![entry], passes, integrator: Integrator::Midpoint }
+    Palette { segments: vec![entry], passes, ..Palette::default() }
 }

@@ -17,4 +17,5 @@ pub mod shapes;
 pub mod smooth;
 pub mod surface;
 pub mod surgery;
+pub mod toys;
 pub mod tube;

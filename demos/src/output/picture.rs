@@ -13,19 +13,12 @@ pub fn picture_path(folder: impl AsRef<Path>, frame: usize) -> PathBuf {
     folder.as_ref().join(format!("frame_{frame:04}.png"))
 }
 
-/// Writes a picture of `width` times `height` pixels as `frame_0042.png` into `folder` and returns its path. `rgba` has
-/// 4 bytes a pixel, row by row from the top left.
+/// Writes a picture of `size` (width, height) pixels to `path`. `rgba` has 4 bytes a pixel, row by row from the top left.
 ///
 /// # Errors
 /// Another number of bytes than pixels need, or a failed write; what was there before stays.
-pub fn write_picture(
-    folder: impl AsRef<Path>,
-    frame: usize,
-    width: u32,
-    height: u32,
-    rgba: &[u8],
-) -> Result<PathBuf, OutputError> {
-    let path = picture_path(folder, frame);
+pub fn write_picture(path: PathBuf, size: [u32; 2], rgba: &[u8]) -> Result<(), OutputError> {
+    let [width, height] = size;
     let expected = 4 * width as usize * height as usize;
     if rgba.len() != expected || expected == 0 {
         return Err(OutputError::Length { path, what: "bytes of a picture", given: rgba.len(), expected });
@@ -38,8 +31,7 @@ pub fn write_picture(
             other => io::Error::other(other.to_string()),
         })
         .and_then(|()| file.finish())
-        .map_err(at(&path))?;
-    Ok(path)
+        .map_err(at(&path))
 }
 
 #[cfg(test)]
@@ -50,8 +42,9 @@ mod tests {
     fn a_picture_reads_back_pixel_by_pixel() {
         let folder = tempfile::tempdir().unwrap();
         let rgba: Vec<u8> = (0..3 * 2 * 4).map(|k| k * 10).collect();
-        let path = write_picture(folder.path(), 7, 3, 2, &rgba).unwrap();
+        let path = picture_path(folder.path(), 7);
         assert!(path.ends_with("frame_0007.png"));
+        write_picture(path.clone(), [3, 2], &rgba).unwrap();
         let back = image::open(&path).unwrap().into_rgba8();
         assert_eq!((back.dimensions(), back.into_raw()), ((3, 2), rgba));
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
@@ -60,9 +53,10 @@ mod tests {
     #[test]
     fn wrong_sizes_and_missing_folders_are_refused() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(matches!(write_picture(folder.path(), 0, 3, 2, &[0; 23]), Err(OutputError::Length { .. })));
-        assert!(write_picture(folder.path(), 0, 0, 0, &[]).is_err());
-        assert!(write_picture(folder.path().join("none"), 0, 1, 1, &[0; 4]).is_err());
+        let at = |name: &str| folder.path().join(name);
+        assert!(matches!(write_picture(at("a.png"), [3, 2], &[0; 23]), Err(OutputError::Length { .. })));
+        assert!(write_picture(at("a.png"), [0, 0], &[]).is_err());
+        assert!(write_picture(at("none/a.png"), [1, 1], &[0; 4]).is_err());
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 }

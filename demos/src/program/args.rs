@@ -23,7 +23,8 @@ pub enum Command {
 pub struct RunArgs {
     /// A scene file (.toml), or the name of a scene that comes with the program.
     pub scene: String,
-    /// Run without a window and write files; implied by --frames, --out, --no-pictures and --picture-every.
+    /// Run without a window and write files; implied by --frames, --out, --no-pictures, --strip and
+    /// --picture-every.
     #[arg(long)]
     pub headless: bool,
     /// Stop after N frames instead of the scene's duration.
@@ -41,6 +42,9 @@ pub struct RunArgs {
     /// Draw every N-th frame [default: 1 on graphics hardware, 10 where drivers draw in software].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub picture_every: Option<u64>,
+    /// Write a film strip too, strip.png: N moments side by side, from the first frame to the last.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub strip: Option<u32>,
     /// Draw with the vertices that the processor deformed, not with the compute pass.
     #[arg(long)]
     pub cpu: bool,
@@ -60,6 +64,7 @@ impl RunArgs {
             out: None,
             no_pictures: false,
             picture_every: None,
+            strip: None,
             cpu: false,
             seed: 0,
         }
@@ -67,7 +72,12 @@ impl RunArgs {
 
     /// Whether no window is wanted.
     pub fn is_headless(&self) -> bool {
-        self.headless || self.no_pictures || self.frames.is_some() || self.out.is_some() || self.picture_every.is_some()
+        self.headless
+            || self.no_pictures
+            || self.frames.is_some()
+            || self.out.is_some()
+            || self.picture_every.is_some()
+            || self.strip.is_some()
     }
 }
 
@@ -97,7 +107,7 @@ mod tests {
         let plain = run(&[]).unwrap();
         assert_eq!((plain.size, plain.seed, plain.is_headless()), ([960, 540], 0, false));
         assert_eq!(run(&["--size", "1920X1080"]).unwrap().size, [1920, 1080]);
-        assert!(run(&["--frames", "30"]).unwrap().is_headless());
+        assert!(run(&["--frames", "30"]).unwrap().is_headless() && run(&["--strip", "8"]).unwrap().is_headless());
     }
 
     #[test]
@@ -110,6 +120,7 @@ mod tests {
             ["--frames", "0"],
             ["--frames", "-3"],
             ["--picture-every", "0"],
+            ["--strip", "0"],
             ["--seed", "x"],
         ] {
             assert_eq!(run(&words).unwrap_err().exit_code(), 2, "{words:?}");

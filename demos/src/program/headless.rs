@@ -19,11 +19,11 @@ pub fn run(args: &RunArgs) -> anyhow::Result<()> {
     let mut simulation = choose::simulation(&args.scene, args.seed)?;
     let folder = folder(args);
     let mut files = Files::create(&folder, &simulation)?;
-    let mut pictures = match args.no_pictures {
-        true => None,
-        false => open_pictures(args, &folder, &simulation)?,
-    };
     let frames = args.frames.unwrap_or_else(|| simulation.frames());
+    let mut pictures = match args.no_pictures && args.strip.is_none() {
+        true => None,
+        false => open_pictures(args, frames, &folder, &simulation)?,
+    };
     let bar = progress(frames);
     let mut summary = Summary::default();
     for frame in 0..frames as usize {
@@ -43,6 +43,9 @@ pub fn run(args: &RunArgs) -> anyhow::Result<()> {
         bar.inc(1);
     }
     files.finish()?;
+    if let Some(drawing) = &pictures {
+        drawing.finish()?;
+    }
     bar.finish_and_clear();
     // Whoever closed the pipe does not want to read on.
     let _ = writeln!(std::io::stdout(), "{}: {summary}; files in {}", simulation.scene.name, folder.display());
@@ -56,9 +59,14 @@ fn folder(args: &RunArgs) -> PathBuf {
 }
 
 /// Pictures, if there is a device; all else works without.
-fn open_pictures(args: &RunArgs, folder: &Path, simulation: &Simulation) -> anyhow::Result<Option<Pictures>> {
+fn open_pictures(
+    args: &RunArgs,
+    frames: u64,
+    folder: &Path,
+    simulation: &Simulation,
+) -> anyhow::Result<Option<Pictures>> {
     match crate::render::Gpu::headless() {
-        Ok(gpu) => Pictures::open(&gpu, args, folder, simulation).map(Some),
+        Ok(gpu) => Pictures::open(&gpu, args, frames, folder, simulation).map(Some),
         Err(error) => {
             tell(&format!("no pictures: {error}"));
             Ok(None)

@@ -14,6 +14,7 @@ mod overlays;
 mod painter;
 mod pictures;
 mod player;
+mod strip;
 mod summary;
 mod surfaces;
 mod watch;

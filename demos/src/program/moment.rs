@@ -26,6 +26,8 @@ pub struct BodyMoment {
     pub positions: Vec<Vec3>,
     /// Its mass-spring sets.
     pub sets: Vec<MassSpringSet>,
+    /// Its draggers: each held point without draggers, and where it is.
+    pub drags: Vec<[Vec3; 2]>,
 }
 
 impl Moment {
@@ -34,7 +36,8 @@ impl Moment {
         let body = |handle| {
             let body = simulation.deformation.get(handle)?;
             let (positions, sets) = (body.positions().to_vec(), body.sets().to_vec());
-            Some(BodyMoment { palette: body.palette().clone(), positions, sets })
+            let drags = body.draggers().filter(|(_, d)| d.goal().is_some()).map(|(_, d)| d.ends()).collect();
+            Some(BodyMoment { palette: body.palette().clone(), positions, sets, drags })
         };
         Self {
             step: simulation.frame,

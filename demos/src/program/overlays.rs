@@ -42,6 +42,12 @@ pub fn overlay(simulation: &Simulation, shown: &Shown, moments: [&Moment; 2], al
     let [from, to] = moments;
     for (actor, (from, to)) in simulation.actors.iter().zip(from.bodies.iter().zip(&to.bodies)) {
         let Some(body) = simulation.deformation.get(actor.handle) else { continue };
+        if from.drags.len() == to.drags.len() {
+            for (from, to) in from.drags.iter().zip(&to.drags) {
+                let [p, q] = [0, 1].map(|end| from[end].lerp(to[end], alpha));
+                overlay.spring(p, q, 0.03, PULL);
+            }
+        }
         if shown.springs || shown.reach {
             add_springs(&mut overlay, shown, body.rig(), [from, to], alpha);
         }

@@ -7,9 +7,10 @@ use anyhow::bail;
 use super::args::RunArgs;
 use super::moment::Moment;
 use super::painter::Painter;
+use super::strip::Strip;
 use super::tell;
 use super::watch::Watch;
-use crate::output::write_picture;
+use crate::output::{picture_path, write_picture};
 use crate::render::{Gpu, Picture, Renderer, picture};
 use crate::simulation::Simulation;
 
@@ -23,13 +24,21 @@ pub struct Pictures {
     painter: Painter,
     folder: PathBuf,
     size: [u32; 2],
-    every: u64,
+    /// None where only a strip is wanted.
+    every: Option<u64>,
+    strip: Option<Strip>,
     watch: Watch,
 }
 
 impl Pictures {
     /// Prepares to draw a scene on a device.
-    pub fn open(gpu: &Gpu, args: &RunArgs, folder: &Path, simulation: &Simulation) -> anyhow::Result<Self> {
+    pub fn open(
+        gpu: &Gpu,
+        args: &RunArgs,
+        frames: u64,
+        folder: &Path,
+        simulation: &Simulation,
+    ) -> anyhow::Result<Self> {
         let limit = gpu.device.limits().max_texture_dimension_2d;
         let [width, height] = args.size;
         if width.max(height) > limit {
@@ -37,7 +46,7 @@ impl Pictures {
         }
         let software = gpu.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         let every = args.picture_every.unwrap_or(if software { SOFTWARE_EVERY } else { 1 });
-        if software && args.picture_every.is_none() {
+        if software && args.picture_every.is_none() && !args.no_pictures {
             let name = &gpu.name;
             tell(&format!("{name} draws in software: a picture of every {every}th frame (--picture-every 1: of all)"));
         }
@@ -48,12 +57,18 @@ impl Pictures {
             tell(&format!("the processor deforms the pictures' vertices: {trouble}"));
         }
         let target = Picture::new(&gpu.device, args.size);
-        Ok(Self { renderer, target, painter, folder: folder.into(), size: args.size, every, watch })
+        let every = (!args.no_pictures).then_some(every);
+        let strip = args.strip.map(|count| Strip::new(count, frames, args.size));
+        Ok(Self { renderer, target, painter, folder: folder.into(), size: args.size, every, strip, watch })
     }
 
     /// Whether a frame gets a picture.
     pub fn wants(&self, frame: usize) -> bool {
-        (frame as u64).is_multiple_of(self.every)
+        self.wants_file(frame) || self.strip.as_ref().is_some_and(|strip| strip.wants(frame))
+    }
+
+    fn wants_file(&self, frame: usize) -> bool {
+        self.every.is_some_and(|every| (frame as u64).is_multiple_of(every))
     }
 
     /// Draws and writes a frame. What the device complains about is returned; nothing is written then.
@@ -64,10 +79,24 @@ impl Pictures {
         if let Some(complaint) = self.watch.complaint() {
             return Ok(Some(complaint));
         }
-        match taken {
-            Ok(image) => write_picture(&self.folder, frame, self.size[0], self.size[1], image.as_raw())?,
+        let image = match taken {
+            Ok(image) => image,
             Err(error) => return Ok(Some(error.to_string())),
         };
+        if self.wants_file(frame) {
+            write_picture(picture_path(&self.folder, frame), self.size, image.as_raw())?;
+        }
+        if let Some(strip) = &mut self.strip {
+            strip.add(frame, &image);
+        }
         Ok(None)
+    }
+
+    /// Writes the film strip, if one is wanted.
+    pub fn finish(&self) -> anyhow::Result<()> {
+        if let Some(strip) = self.strip.as_ref().map(Strip::picture) {
+            write_picture(self.folder.join("strip.png"), strip.dimensions().into(), strip.as_raw())?;
+        }
+        Ok(())
     }
 }

@@ -10,8 +10,11 @@ use super::painter::Painter;
 use super::{choose, looks};
 use crate::render::{Camera, Frame, Renderer};
 use crate::scene::scene_names;
-use crate::simulation::{BuildError, Simulation};
+use crate::simulation::{BuildError, Simulation, Take};
 use crate::window::Stage;
+
+/// How far grabbed skin takes its surroundings along at first, in sizes of the body.
+const FIRST_REACH: f32 = 0.6;
 
 /// Plays one scene at a time.
 pub struct Player {
@@ -25,6 +28,9 @@ pub struct Player {
     compute: bool,
     shown: Shown,
     trouble: Option<String>,
+    /// Whether the pointer pulls the skin rather than the body under it, and within how many sizes of the body.
+    pulls_skin: bool,
+    reach: f32,
 }
 
 impl Player {
@@ -47,6 +53,8 @@ impl Player {
             compute: !run.cpu,
             shown: Shown::default(),
             trouble: None,
+            pulls_skin: false,
+            reach: FIRST_REACH,
         })
     }
 
@@ -125,8 +133,9 @@ impl Stage for Player {
         frame
     }
 
-    fn grab(&mut self, origin: Vec3, direction: Vec3) -> bool {
-        self.simulation.grab(origin, direction)
+    fn grab(&mut self, origin: Vec3, direction: Vec3, other: bool) -> bool {
+        let take = if self.pulls_skin == other { Take::Body } else { Take::Skin(self.reach) };
+        self.simulation.grab(origin, direction, take)
     }
 
     fn drag(&mut self, origin: Vec3, direction: Vec3) {
@@ -142,6 +151,14 @@ impl Stage for Player {
             panel.colored_label(panel.visuals().error_fg_color, trouble);
         }
         ui::settings(panel, &mut self.simulation.deformation);
+        panel.horizontal(|panel| {
+            panel.label("grab");
+            panel.selectable_value(&mut self.pulls_skin, false, "bodies").on_hover_text("Control: the skin");
+            panel.selectable_value(&mut self.pulls_skin, true, "skin").on_hover_text("Control: the bodies");
+        });
+        panel
+            .add(egui::Slider::new(&mut self.reach, 0.1..=1.5).text("reach"))
+            .on_hover_text("How far grabbed skin takes its surroundings along, in sizes of the body");
         panel.separator();
         panel.strong("Show");
         for (value, text) in [

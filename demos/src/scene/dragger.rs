@@ -15,8 +15,8 @@ pub struct Dragger {
     pub pulls: Pulls,
     /// Where it holds the body, in its mesh.
     pub point: Vec3,
-    /// Times in seconds, rising, and where the point is wanted then; at least two. It takes hold at the first time and
-    /// lets go at the last.
+    /// Times in seconds, rising, and where the point is wanted then: of a body in the world, of skin as an offset from
+    /// where it would be by itself. At least two. It takes hold at the first time and lets go at the last.
     pub keys: Vec<(f32, Vec3)>,
 }
 

@@ -1,5 +1,6 @@
-//! Grabbing a body by its skin and dragging it.
+//! Grabbing what is under the pointer, a body or its skin, and dragging it.
 
+use pliant::elastic::{DraggerHandle, DraggerStart, Grip};
 use pliant::math::Vec3;
 use rapier3d::parry::query::{Ray, RayCast};
 use rapier3d::parry::shape::Triangle;
@@ -18,12 +19,33 @@ pub struct Hit {
     pub point: Vec3,
     /// The segment that owns most of the skin there.
     pub segment: usize,
+    /// The nearest vertex of the triangle that was met.
+    pub vertex: usize,
 }
 
 /// What the pointer holds, at the distance from the eye at which it was grabbed.
 pub(super) struct Grab {
-    pull: Pull,
+    hold: Hold,
     distance: f32,
+}
+
+enum Hold {
+    Body(Pull),
+    /// Of which actor, and how far the held vertex is from where the ray met the skin.
+    Skin {
+        actor: usize,
+        dragger: DraggerHandle,
+        aside: Vec3,
+    },
+}
+
+/// What a grab takes hold of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Take {
+    /// The rigid body under the skin.
+    Body,
+    /// The skin, within so many sizes of the body.
+    Skin(f32),
 }
 
 /// Natural frequency of the pull in hertz; it is critically damped.
@@ -43,47 +65,110 @@ impl Simulation {
                 if let Some(distance) = triangle.cast_local_ray(&ray, limit, true) {
                     let skin = &body.rig().weights[t[0] as usize];
                     let segment = usize::from(skin.heaviest());
-                    best = Some(Hit { actor, distance, point: ray.point_at(distance), segment });
+                    let point = ray.point_at(distance);
+                    let away = |v: &usize| x[*v].distance_squared(point);
+                    let vertex = t.map(|v| v as usize).into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+                    best = vertex.map(|vertex| Hit { actor, distance, point, segment, vertex });
                 }
             }
         }
         best
     }
 
-    /// Grabs the skin under a ray. False where there is none.
-    pub fn grab(&mut self, origin: Vec3, direction: Vec3) -> bool {
-        let Some(hit) = self.pick(origin, direction) else { return false };
-        let ragdoll = self.deformation.ragdoll(self.actors[hit.actor].handle);
-        let Some(&body) = ragdoll.and_then(|ragdoll| ragdoll.bodies.get(hit.segment)) else { return false };
-        let Some(rigid) = self.physics.bodies.get(body) else { return false };
-        let local = rigid.position().inverse_transform_point(hit.point);
-        let pull = Pull { body, local, goal: hit.point, frequency: FREQUENCY, rotation: None };
-        self.grab = Some(Grab { pull, distance: hit.distance });
-        true
+    /// Grabs what is under a ray. False where there is nothing.
+    pub fn grab(&mut self, origin: Vec3, direction: Vec3, take: Take) -> bool {
+        self.release();
+        let held = self.pick(origin, direction).and_then(|hit| Some((self.hold(&hit, take)?, hit.distance)));
+        self.grab = held.map(|(hold, distance)| Grab { hold, distance });
+        self.grab.is_some()
+    }
+
+    fn hold(&mut self, hit: &Hit, take: Take) -> Option<Hold> {
+        let actor = self.actors.get(hit.actor)?.handle;
+        match take {
+            Take::Body => {
+                let body = *self.deformation.ragdoll(actor)?.bodies.get(hit.segment)?;
+                let local = self.physics.bodies.get(body)?.position().inverse_transform_point(hit.point);
+                Some(Hold::Body(Pull { body, local, goal: hit.point, frequency: FREQUENCY, rotation: None }))
+            }
+            Take::Skin(reach) => {
+                let body = self.deformation.get_mut(actor)?;
+                let radius = reach * body.rig().mesh.size();
+                let grip = Grip::on_vertex(body.rig(), hit.vertex)?;
+                let place = body.grip_position(&grip);
+                let dragger = body.add_dragger(DraggerStart::new(grip, radius, place)).ok()?;
+                Some(Hold::Skin { actor: hit.actor, dragger, aside: place - hit.point })
+            }
+        }
     }
 
     /// Moves the goal of the grabbed point along with the ray, at the distance at which it was grabbed.
     pub fn drag(&mut self, origin: Vec3, direction: Vec3) {
-        if let Some(grab) = &mut self.grab {
-            grab.pull.goal = origin + direction.normalize_or(Vec3::Z) * grab.distance;
+        let Some(grab) = &mut self.grab else { return };
+        let goal = origin + direction.normalize_or(Vec3::Z) * grab.distance;
+        match &mut grab.hold {
+            Hold::Body(pull) => pull.goal = goal,
+            Hold::Skin { actor, dragger, aside } => {
+                let body = self.actors.get(*actor).and_then(|actor| self.deformation.get_mut(actor.handle));
+                if let Some(body) = body {
+                    body.move_dragger(*dragger, goal + *aside);
+                }
+            }
         }
     }
 
     /// Lets go.
     pub fn release(&mut self) {
-        self.grab = None;
+        if let Some(Grab { hold: Hold::Skin { actor, dragger, .. }, .. }) = self.grab.take() {
+            let body = self.actors.get(actor).and_then(|actor| self.deformation.get_mut(actor.handle));
+            if let Some(body) = body {
+                body.release_dragger(dragger);
+            }
+        }
     }
 
-    /// The grabbed point and its goal.
+    /// The grabbed point of a body and its goal.
     pub fn grabbed(&self) -> Option<(Vec3, Vec3)> {
-        let grab = self.grab.as_ref()?;
-        Some((grab.pull.point(&self.physics)?, grab.pull.goal))
+        match &self.grab.as_ref()?.hold {
+            Hold::Body(pull) => Some((pull.point(&self.physics)?, pull.goal)),
+            Hold::Skin { .. } => None,
+        }
     }
 
     /// The grabbed body is pulled to where the pointer is.
     pub(super) fn pull_grabbed(&mut self) {
-        if let Some(grab) = &self.grab {
-            grab.pull.apply(&mut self.physics, &self.deformation);
+        if let Some(Grab { hold: Hold::Body(pull), .. }) = &self.grab {
+            pull.apply(&mut self.physics, &self.deformation);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{find_scene, load_scene};
+
+    #[test]
+    fn skin_that_is_grabbed_follows_the_pointer_and_returns() {
+        let scene = load_scene(find_scene("ball").unwrap()).unwrap();
+        let mut simulation = Simulation::new(scene, 0).unwrap();
+        simulation.physics.gravity = Vec3::ZERO;
+        let (eye, ahead) = (Vec3::new(0.0, 1.5, 4.0), Vec3::NEG_Z);
+        assert!(!simulation.grab(eye, Vec3::Z, Take::Skin(0.5)), "nothing is behind the eye");
+        assert!(simulation.grab(eye, ahead, Take::Skin(0.5)));
+        let aside = Vec3::new(0.2, 0.1, 0.0);
+        for share in 1..=10 {
+            simulation.drag(eye + aside * share as f32 * 0.1, ahead);
+            simulation.step();
+        }
+        let farthest = |simulation: &Simulation| {
+            let body = simulation.deformation.get(simulation.actors[0].handle).unwrap();
+            let rest = body.rig().mesh.positions.iter().map(|x| body.motions()[0].transform_point(*x));
+            rest.zip(body.positions()).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+        };
+        assert!((farthest(&simulation) - aside.length()).abs() < 0.02, "{}", farthest(&simulation));
+        simulation.release();
+        (0..300).for_each(|_| simulation.step());
+        assert!(farthest(&simulation) < 1e-4, "{}", farthest(&simulation));
     }
 }

@@ -11,7 +11,7 @@ mod shape;
 mod shown_part;
 
 pub use build::BuildError;
-pub use grab::Hit;
+pub use grab::{Hit, Take};
 pub use obstacle::ObstacleBody;
 pub use ring::ring_surface;
 pub use running::{Actor, Simulation};

@@ -173,7 +173,7 @@ impl App {
             let place = (at - rect.center()) / rect.size() * 2.0;
             camera.ray(Vec2::new(place.x, -place.y), aspect)
         };
-        let shift = ui.input(|input| input.modifiers.shift);
+        let (shift, other) = ui.input(|input| (input.modifiers.shift, input.modifiers.command));
         if let (true, Some(at)) = (response.drag_started(), response.interact_pointer_pos()) {
             let button = |button| response.drag_started_by(button);
             self.drag = if button(PointerButton::Middle) || shift {
@@ -182,7 +182,7 @@ impl App {
                 Drag::Turn
             } else {
                 let (origin, direction) = ray(at);
-                if self.stage.grab(origin, direction) { Drag::Grab } else { Drag::Turn }
+                if self.stage.grab(origin, direction, other) { Drag::Grab } else { Drag::Turn }
             };
         }
         let moved = response.drag_delta() / rect.height();

@@ -23,8 +23,8 @@ pub trait Stage {
     /// Describes the picture between the last two steps (`alpha` is one at the last), with meshes of the renderer. The
     /// camera of the result is replaced by the window's. After a change of scene, meshes have to be made anew.
     fn frame(&mut self, renderer: &mut Renderer, alpha: f32) -> Frame;
-    /// Grabs what a ray meets first, if it can be moved.
-    fn grab(&mut self, origin: Vec3, direction: Vec3) -> bool;
+    /// Grabs what a ray meets first, if it can be moved; the `other` way than usual if so asked.
+    fn grab(&mut self, origin: Vec3, direction: Vec3, other: bool) -> bool;
     /// Moves what is grabbed so that it stays under the ray.
     fn drag(&mut self, origin: Vec3, direction: Vec3);
     /// Lets go.

@@ -1,7 +1,7 @@
-// The deformation of one point: equation (18), then the collision passes. The twin of `elastic/deform.rs`.
+// The deformation of one point: equation (18), then the draggers, then the collision passes. The twin of `elastic/deform.rs`.
 
 fn deform(x: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
-    return collide(spring(x, skin), skin);
+    return collide(drag_flow(spring(x, skin), skin), skin);
 }
 
 fn spring(x: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
@@ -20,7 +20,7 @@ fn spring(x: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
 
 // Carries x through a stage of mass-spring fields. A point that no field can reach is returned as it is.
 fn stage_flow(stage: u32, x: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
-    let flow = Flow(true, palette[stage].x, palette[stage].y, skin);
+    let flow = Flow(SPRINGS, palette[stage].x, palette[stage].y, skin);
     for (var i = 0u; i < flow.count; i++) {
         if spring_reaches(flow.first + i * SPRING, x) {
             return path_line(x, palette[stage].z, flow);
@@ -39,7 +39,7 @@ fn collide(start: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
 
 // Carries x through a collision pass. A vertex that has no share in any of its segments stays.
 fn pass_flow(at: u32, x: vec3<f32>, skin: SkinWeights) -> vec3<f32> {
-    let flow = Flow(false, palette[at].x, palette[at].y, skin);
+    let flow = Flow(COLLISIONS, palette[at].x, palette[at].y, skin);
     for (var i = 0u; i < flow.count; i++) {
         if share_of(skin, palette[flow.first + i * COLLISION].y) > 0.0 {
             return path_line(x, palette[at].z, flow);

@@ -1,8 +1,12 @@
 // Path lines. The twin of `field/path_line.rs`; a flow stands in for the closure there.
 
-// A sum of fields: `count` of them from `first` on, of the mass-spring sets or of one collision pass.
+// A sum of fields: `count` of them from `first` on, of the mass-spring sets, the draggers or one collision pass.
+const SPRINGS = 0u;
+const DRAGS = 1u;
+const COLLISIONS = 2u;
+
 struct Flow {
-    springs: bool,
+    kind: u32,
     first: u32,
     count: u32,
     skin: SkinWeights,
@@ -11,8 +15,11 @@ struct Flow {
 fn velocity(flow: Flow, x: vec3<f32>, t: f32) -> vec3<f32> {
     var sum = vec3<f32>(0.0);
     for (var i = 0u; i < flow.count; i++) {
-        if flow.springs {
+        if flow.kind == SPRINGS {
             sum += spring_velocity(flow.first + i * SPRING, x, t);
+        } else if flow.kind == DRAGS {
+            let field = flow.first + i * DRAG;
+            sum += spring_velocity(field, x, t) * drag_weight(field, flow.skin);
         } else {
             let field = flow.first + i * COLLISION;
             let weight = share_of(flow.skin, palette[field].y);
