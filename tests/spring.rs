@@ -80,3 +80,12 @@ fn the_papers_mass_stiffness_and_damping_convert_both_ways() {
     let (stiffness, damping) = spring.stiffness_damping(2.0);
     assert!((stiffness - 300.0).abs() < 1e-3 && (damping - 7.0).abs() < 1e-5);
 }
+
+#[test]
+fn a_spring_made_from_a_restitution_has_it() {
+    for restitution in [0.0, 0.05, 0.3, 0.6, 0.9, 1.0] {
+        let spring = SpringCoefficients::from_restitution(3.0, restitution);
+        assert!(spring.is_valid());
+        assert!((spring.restitution() - restitution).abs() < 1e-5, "{restitution}: {}", spring.restitution());
+    }
+}

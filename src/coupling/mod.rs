@@ -9,6 +9,7 @@ mod gauge;
 mod literal;
 mod magnitude;
 mod obstacle;
+mod pairs;
 mod penetrations;
 mod piercing;
 mod probes;
@@ -24,15 +25,22 @@ pub use obstacle::{
     DEFAULT_THICKNESS, LocalPart, ObstacleError, ObstaclePart, OuterFace, PartCache, PartId, PartSource, convex_parts,
     decompose, decompose_cached,
 };
+pub use pairs::{
+    HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
+    segment_bounds,
+};
 pub use penetrations::{Contact, Penetration, find_contacts, find_piercings};
 pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};
 pub use skin_point::SkinPoint;
 mod foundation;
 mod measure;
 mod ragdoll;
-mod velocities;
 
-pub use foundation::{FoundationPoint, FoundationSettings, push_back, share};
+pub use foundation::{
+    Approach, ContactMaterial, ElasticSide, FoundationContact, FoundationMemory, FoundationPoint, FoundationSettings,
+    PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts, remember_skin_contacts,
+    skin_contacts,
+};
 pub use measure::{INSIDE, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;

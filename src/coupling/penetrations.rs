@@ -88,7 +88,10 @@ pub fn find_piercings(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proxim
             let along = parts[p.part].exit(x, near.normal, ASKEW * p.depth);
             let (out, depth) = match along {
                 Some(depth) if depth < ASKEW * p.depth => (near.normal, depth),
-                _ => (parts[p.part].placed.signed_distance(x).1, p.depth),
+                _ => {
+                    let way = parts[p.part].way_to_surface(x);
+                    (way.normalize_or(near.normal), way.length().max(p.depth))
+                }
             };
             let p = Penetration { depth, ..p };
             match groups.iter_mut().find(|(normal, _)| normal.dot(out) > SAME_WAY) {

@@ -1,8 +1,8 @@
 //! Ragdolls: the rigid bodies and elastic joints of a rig in the user's own rapier sets.
 
 use rapier3d::dynamics::{
-    GenericJoint, GenericJointBuilder, ImpulseJointHandle, ImpulseJointSet, JointAxesMask, JointAxis, MassProperties,
-    MotorModel, RigidBodyBuilder, RigidBodyHandle, RigidBodySet,
+    CoefficientCombineRule, GenericJoint, GenericJointBuilder, ImpulseJointHandle, ImpulseJointSet, JointAxesMask,
+    JointAxis, MassProperties, MotorModel, RigidBodyBuilder, RigidBodyHandle, RigidBodySet,
 };
 use rapier3d::geometry::{ColliderBuilder, ColliderSet, InteractionGroups, SharedShape};
 
@@ -69,6 +69,8 @@ impl Ragdoll {
             let core = ColliderBuilder::new(core_shape(segment))
                 .density(0.0)
                 .friction(rig.contact.friction)
+                .restitution(rig.contact.restitution())
+                .restitution_combine_rule(CoefficientCombineRule::Max)
                 .collision_groups(start.groups);
             colliders.insert_with_parent(core, handle, bodies);
             ragdoll.bodies.push(handle);

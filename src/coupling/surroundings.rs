@@ -9,6 +9,7 @@ use rapier3d::pipeline::QueryPipeline;
 
 use super::common_way::share_ways_out;
 use super::contact::{Proximity, moved_axis, way_out};
+use super::foundation::Approach;
 use super::obstacle::{ObstacleError, ObstaclePart, PartCache, PartId};
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
@@ -18,22 +19,8 @@ use crate::math::Vec3;
 pub struct ContactMemory {
     /// The way out: the answer where the segment's axis itself is inside the part now.
     pub normal: Vec3,
-    /// Largest speed at which the skin has come in within the last period of the contact's spring, in m/s: it never
-    /// leaves faster.
-    pub approach: f32,
-    /// Seconds since then.
-    pub age: f32,
-}
-
-impl ContactMemory {
-    /// Remembers this step's approach speed; what is older than `period` seconds is forgotten.
-    pub fn remember(&mut self, approach: f32, dt: f32, period: f32) {
-        self.age += dt;
-        if approach >= self.approach || self.age > period {
-            self.approach = approach;
-            self.age = 0.0;
-        }
-    }
+    /// How fast the contact began to close.
+    pub approach: Approach,
 }
 
 /// The memory of all contacts of a body.
@@ -101,7 +88,7 @@ pub fn proximities(
             else {
                 continue;
             };
-            let fresh = ContactMemory { normal, approach: 0.0, age: 0.0 };
+            let fresh = ContactMemory { normal, approach: Approach::default() };
             renewed.insert(key, memory.map_or(fresh, |memory| ContactMemory { normal, ..*memory }));
             near.push(Proximity { segment: key.0, part: index, normal, axis_point });
         }

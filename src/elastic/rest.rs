@@ -16,7 +16,8 @@ pub struct SegmentSkin {
     pub size: f32,
     /// Mean of these vertices in the rest pose.
     pub centroid: Vec3,
-    /// Points of the skin, thinned out evenly, that feel the repelling impulse.
+    /// Points of the skin, thinned out, that feel the repelling impulse. As many of the first of them as one likes are spread
+    /// evenly.
     pub samples: Vec<SkinSample>,
     /// The segment's axis: its bone shortened by the radius of its shape, in the rest pose. The axis lies deep inside,
     /// so that the way from an obstacle to the axis is the way out of the obstacle.
@@ -35,8 +36,9 @@ pub struct SkinSample {
 /// A vertex belongs to a segment's contacts from this weight on: with less, the segment's field hardly moves it.
 pub const MEMBER_WEIGHT: f32 = 0.25;
 
-/// Skin samples a segment: enough to feel a bar a tenth of the segment thick, few enough to solve together.
-pub const SAMPLES_PER_SEGMENT: usize = 128;
+/// Most skin samples of a segment. Where something large touches, the first of them are enough; a crate on a cushion, or
+/// a bar a tenth of the segment thick, needs them closer together.
+pub const SAMPLES_PER_SEGMENT: usize = 1024;
 
 impl SegmentSkin {
     /// Collects what segment `index` of the rig owns.

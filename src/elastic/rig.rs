@@ -98,10 +98,23 @@ impl MassSpringSetRig {
 /// How the body answers obstacles that it penetrates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactSettings {
-    /// Natural frequency and damping ratio of the whole body on its contact spring.
+    /// Natural frequency and damping ratio of the whole body on its contact spring. The damping ratio is a restitution
+    /// by another name: see [`ContactSettings::bouncing`].
     pub spring: SpringCoefficients,
     /// Coulomb friction coefficient, not negative.
     pub friction: f32,
+}
+
+impl ContactSettings {
+    /// Contacts that give back the fraction `restitution`, from 0 to 1, of the speed at which they closed.
+    pub fn bouncing(natural_frequency: f32, restitution: f32, friction: f32) -> Self {
+        Self { spring: SpringCoefficients::from_restitution(natural_frequency, restitution), friction }
+    }
+
+    /// The coefficient of restitution: the speed at which a contact opens over the speed at which it closed.
+    pub fn restitution(&self) -> f32 {
+        self.spring.restitution()
+    }
 }
 
 /// Everything about an elastic body that its copies share.

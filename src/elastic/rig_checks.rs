@@ -46,6 +46,11 @@ fn spring(table: RigTable, spring: SpringCoefficients) -> Check {
     not_negative(table, "damping_ratio", spring.damping_ratio)
 }
 
+/// A coefficient of restitution.
+pub(super) fn restitution(table: RigTable, restitution: f32) -> Check {
+    in_range(table, "restitution", restitution, (0.0..=1.0).contains(&restitution), "from 0 to 1")
+}
+
 /// Softness and threshold.
 pub(super) fn check_rig(softness: f32, local_threshold: f32) -> Check {
     in_range(RigTable::Rig, "softness", softness, softness > 0.0 && softness <= 10.0, "above 0 and at most 10")?;

@@ -83,6 +83,9 @@ pub enum RigFaultKind {
         /// The range in words.
         range: &'static str,
     },
+    /// Contacts with a damping ratio and a restitution.
+    #[error("and `damping_ratio` are two names for one thing; give one of them")]
+    DampingAndRestitution,
     /// A capsule on a bone without length.
     #[error("has no length, so a capsule has no axis; move an end or use a ball")]
     ZeroBone,

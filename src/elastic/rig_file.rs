@@ -72,7 +72,7 @@ fn build(text: &TomlText, raw: RawRig) -> Result<ElasticRig, RigFault> {
     if let Some(radius) = raw.local_threshold {
         rig.local_threshold(radius);
     }
-    rig.contact(contact(&raw.contact));
+    rig.contact(contact(&raw.contact)?);
     for (i, s) in raw.segment.into_iter().enumerate() {
         rig.segment(segment(i, s)?);
     }
@@ -92,15 +92,19 @@ fn build(text: &TomlText, raw: RawRig) -> Result<ElasticRig, RigFault> {
     rig.build()
 }
 
-fn contact(raw: &RawContact) -> ContactSettings {
+fn contact(raw: &RawContact) -> Result<ContactSettings, RigFault> {
     let plain = ContactSettings::default();
-    ContactSettings {
-        spring: SpringCoefficients::new(
-            raw.frequency.unwrap_or(plain.spring.natural_frequency),
-            raw.damping_ratio.unwrap_or(plain.spring.damping_ratio),
-        ),
-        friction: raw.friction.unwrap_or(plain.friction),
-    }
+    let frequency = raw.frequency.unwrap_or(plain.spring.natural_frequency);
+    let friction = raw.friction.unwrap_or(plain.friction);
+    let spring = match (raw.damping_ratio, raw.restitution) {
+        (Some(_), Some(_)) => return Err(fault(RigTable::Contact, "restitution", Kind::DampingAndRestitution)),
+        (None, Some(restitution)) => {
+            super::rig_checks::restitution(RigTable::Contact, restitution)?;
+            return Ok(ContactSettings::bouncing(frequency, restitution, friction));
+        }
+        (ratio, None) => SpringCoefficients::new(frequency, ratio.unwrap_or(plain.spring.damping_ratio)),
+    };
+    Ok(ContactSettings { spring, friction })
 }
 
 fn segment(i: usize, raw: RawSegment) -> Result<Segment, RigFault> {

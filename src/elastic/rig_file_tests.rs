@@ -140,6 +140,8 @@ fn bad_rigs_are_refused_with_their_line_and_a_hint() {
         ("damping = 8.0", "damping = -8.0", 37, &["`damping`", "at least 0"]),
         ("stiffness = 800.0", "stiffness = 1e12", 31, &["`frequency`", "1000 Hz"]),
         ("friction = 0.7", "friction = -0.1", 7, &["contact", "`friction`", "-0.1"]),
+        ("damping_ratio = 0.5", "restitution = 1.5", 6, &["contact", "`restitution`", "from 0 to 1"]),
+        ("damping_ratio = 0.5", "damping_ratio = 0.5\nrestitution = 0.5", 7, &["`restitution`", "`damping_ratio`"]),
         ("frequency = 4.0", "frequency = 0", 5, &["contact", "`frequency`"]),
         ("softness = 1.5", "softness = 0", 2, &["`softness`", "at most 10"]),
         ("softness = 1.5", "softness = 11", 2, &["`softness`", "11"]),
@@ -171,6 +173,13 @@ fn bad_rigs_are_refused_with_their_line_and_a_hint() {
         assert!(message.contains(&format!("rig.toml:{line}: ")), "{to}: {message}");
         assert!(words.iter().all(|w| message.contains(w)) && !message.contains('\n'), "{to}: {message}");
     }
+}
+
+#[test]
+fn contacts_may_be_given_by_their_restitution() {
+    let rig = load(&GOOD.replacen("damping_ratio = 0.5", "restitution = 0.8", 1), BOX).unwrap();
+    assert!((rig.contact.restitution() - 0.8).abs() < 1e-5);
+    assert_eq!((rig.contact.spring.natural_frequency, rig.contact.friction), (4.0, 0.7));
 }
 
 #[test]

@@ -24,6 +24,7 @@ pub(super) struct RawRig {
 pub(super) struct RawContact {
     pub frequency: Option<f32>,
     pub damping_ratio: Option<f32>,
+    pub restitution: Option<f32>,
     pub friction: Option<f32>,
 }
 

@@ -3,4 +3,4 @@
 pub use parry3d::math::{Pose, Vector as Vec3};
 /// Rotations as unit quaternions, the type inside a [`Pose`].
 pub type Quat = glam::Quat;
-pub use glam::{Mat3, Vec2};
+pub use glam::{Mat2, Mat3, Vec2};

@@ -43,6 +43,18 @@ impl SpringCoefficients {
         if zeta >= 1.0 { 0.0 } else { (-std::f32::consts::PI * zeta / (1.0 - zeta * zeta).sqrt()).exp() }
     }
 
+    /// The oscillator with the given natural frequency in hertz and [`SpringCoefficients::restitution`], from 0 to 1:
+    /// `ζ = −ln e / √(π² + ln² e)`; 0 is critical damping.
+    pub fn from_restitution(natural_frequency: f32, restitution: f32) -> Self {
+        let damping_ratio = if restitution > 0.0 {
+            let log = restitution.ln();
+            -log / (std::f32::consts::PI.powi(2) + log * log).sqrt()
+        } else {
+            1.0
+        };
+        Self { natural_frequency, damping_ratio }
+    }
+
     /// True when both figures are finite, the frequency positive and the ratio not negative.
     pub fn is_valid(&self) -> bool {
         self.natural_frequency.is_finite()

@@ -11,7 +11,8 @@ use rapier3d::pipeline::PhysicsWorld;
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::{
-    CancelSettings, ContactMemories, FoundationSettings, ObstacleError, PartCache, PartId, Ragdoll, RagdollStart,
+    CancelSettings, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError, PartCache, PartId, Ragdoll,
+    RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
@@ -126,6 +127,7 @@ pub struct DeformationWorld {
     pub(super) entries: Arena<Entry>,
     pub(super) parts: PartCache,
     pub(super) own: BTreeSet<(u32, u32)>,
+    pub(super) foundation: FoundationMemory,
     pub(super) report: StepReport,
 }
 

@@ -14,8 +14,8 @@ use super::deformation_world::{
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, FoundationPoint, ObstacleError, ObstaclePart, Proximity, cancel, measure, obstacles_near,
-    penetration, proximities, push_back, share,
+    CancelReport, ElasticSide, ObstacleError, ObstaclePart, Proximity, cancel, measure, obstacles_near, proximities,
+    push_back, remember_skin_contacts, skin_contacts,
 };
 use crate::math::{Pose, Vec3};
 
@@ -139,22 +139,16 @@ impl DeformationWorld {
 
     /// Repelling impulses in proportion to the depth, all bodies together.
     fn push_bodies_back(&mut self, encounters: &[Encounter], rapier: &mut RapierView<'_>) {
-        let mut points = Vec::new();
+        let step = rapier.step_size();
+        let mut contacts = Vec::new();
         for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
-            let mut contacts: Vec<Vec<FoundationPoint>> = encounter
-                .near
-                .iter()
-                .map(|near| foundation_points(entry, &encounter.parts[near.part], near, rapier, &self.settings))
-                .collect();
-            let bodies = entry.ragdoll.bodies.iter().filter_map(|&handle| rapier.bodies.get(handle));
-            let mass: f32 = bodies.map(|body| body.mass()).sum();
-            let (stiffness, damping) = entry.body.rig().contact.spring.stiffness_damping(mass);
-            let factor = self.settings.stiffness;
-            share(&mut contacts, stiffness * factor, damping * factor.sqrt());
-            points.extend(contacts.into_iter().flatten());
+            let (body, ragdoll, stiffness) = (&entry.body, &entry.ragdoll, self.settings.stiffness);
+            let side = ElasticSide::of(encounter.handle.into_raw_parts(), body, ragdoll, stiffness, rapier.bodies);
+            let found = skin_contacts(side, body, ragdoll, &encounter.parts, &encounter.near, rapier.colliders);
+            contacts.extend(remember_skin_contacts(found, &mut entry.memories, &step, rapier.bodies));
         }
-        push_back(&points, rapier.gravity, rapier.dt, self.settings.foundation, rapier.bodies);
+        push_back(&contacts, &step, self.settings.foundation, &mut self.foundation, rapier.bodies);
     }
 
     /// Local and global spring stages on every vertex.
@@ -271,66 +265,6 @@ fn region_of(entry: &Entry) -> Aabb {
     }
     let margin = swing(entry);
     Aabb::new(mins - margin, maxs + margin)
-}
-
-/// The thinned skin points of one segment that are inside one part; their shares of the stiffness follow.
-fn foundation_points(
-    entry: &mut Entry,
-    part: &ObstaclePart,
-    near: &Proximity,
-    rapier: &RapierView<'_>,
-    settings: &DeformationSettings,
-) -> Vec<FoundationPoint> {
-    let segment = usize::from(near.segment);
-    let skin = &entry.body.skins()[segment];
-    let motion = entry.body.motions()[segment];
-    let Some(collider) = rapier.colliders.get(part.collider) else { return Vec::new() };
-    let contact = entry.body.rig().contact;
-    let friction = 0.5 * (contact.friction + collider.friction());
-    let inward = motion.rotation.inverse() * near.normal;
-    let mut points: Vec<FoundationPoint> = skin
-        .samples
-        .iter()
-        .filter_map(|sample| {
-            let position = motion.transform_point(sample.position);
-            let depth = penetration(part, near, position, sample.normal.dot(inward), 2.0 * skin.size)?;
-            (depth > 0.0).then_some(FoundationPoint {
-                body: entry.ragdoll.bodies[segment],
-                other: collider.parent(),
-                position,
-                normal: near.normal,
-                depth,
-                stiffness: 0.0,
-                damping: 0.0,
-                friction,
-                release: 0.0,
-            })
-        })
-        .collect();
-    let approach = points.iter().map(|point| approach_speed(point, rapier.bodies)).fold(0.0, f32::max);
-    let period = 1.0 / (contact.spring.natural_frequency * settings.stiffness.sqrt());
-    let release = entry.memories.get_mut(&(near.segment, part.id)).map_or(approach, |memory| {
-        memory.remember(approach, rapier.dt, period);
-        memory.approach
-    });
-    let release = if release > RESTING { release * contact.spring.restitution() } else { 0.0 };
-    for point in &mut points {
-        point.release = release.max(RECOVERY * point.depth / rapier.dt);
-    }
-    points
-}
-
-/// A point that is inside an obstacle without any speed is let out by at most this fraction of its depth a step.
-const RECOVERY: f32 = 0.1;
-
-/// What comes in more slowly, in m/s, comes to rest instead of bouncing: a step of gravity is as fast.
-const RESTING: f32 = 0.4;
-
-/// The speed at which a point of the skin goes into an obstacle.
-fn approach_speed(point: &FoundationPoint, bodies: &RigidBodySet) -> f32 {
-    let velocity = |handle| bodies.get(handle).map_or(Vec3::ZERO, |body| body.velocity_at_point(point.position));
-    let relative = velocity(point.body) - point.other.map_or(Vec3::ZERO, velocity);
-    -relative.dot(point.normal)
 }
 
 fn lap(clock: Instant) -> f32 {

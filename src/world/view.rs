@@ -4,6 +4,7 @@ use rapier3d::dynamics::{ImpulseJointSet, RigidBodySet};
 use rapier3d::geometry::{BroadPhaseBvh, ColliderSet, NarrowPhase};
 use rapier3d::pipeline::PhysicsWorld;
 
+use crate::coupling::StepSize;
 use crate::math::Vec3;
 
 /// What [`super::DeformationWorld::step_with`] needs of rapier.
@@ -20,6 +21,15 @@ pub struct RapierView<'a> {
     pub gravity: Vec3,
     /// Length of a step in seconds.
     pub dt: f32,
+    /// Rapier's substeps (`num_solver_iterations` of its integration parameters).
+    pub substeps: usize,
+}
+
+impl RapierView<'_> {
+    /// The step that the repelling impulses are made for.
+    pub fn step_size(&self) -> StepSize {
+        StepSize { dt: self.dt, gravity: self.gravity, substeps: self.substeps }
+    }
 }
 
 impl<'a> From<&'a mut PhysicsWorld> for RapierView<'a> {
@@ -31,6 +41,7 @@ impl<'a> From<&'a mut PhysicsWorld> for RapierView<'a> {
             narrow_phase: &world.narrow_phase,
             gravity: world.gravity,
             dt: world.integration_parameters.dt,
+            substeps: world.integration_parameters.num_solver_iterations,
         }
     }
 }

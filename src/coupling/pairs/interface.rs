@@ -1,0 +1,82 @@
+//! The plane between two skins that overlap, and the convex parts that push each skin to its side.
+
+use std::f32::consts::FRAC_PI_2;
+
+use rapier3d::geometry::{ColliderHandle, SharedShape};
+
+use super::overlap::{Overlap, frame_of};
+use crate::coupling::obstacle::{ObstacleError, ObstaclePart, PartId, convex_parts};
+use crate::math::{Mat3, Pose, Quat, Vec3};
+
+/// Where two skins are to touch: a rectangle or a disc across the line between their axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interface {
+    /// Middle of the rectangle.
+    pub centre: Vec3,
+    /// Its two sides and, as the z axis, the direction towards the first skin.
+    pub frame: Mat3,
+    /// Half of its sides in metres.
+    pub half: [f32; 2],
+    /// Where the overlap follows no direction: the radius of a disc instead of the rectangle, in metres.
+    pub round: Option<f32>,
+    /// How far the first skin reaches beyond it, and the second on the other side, in metres.
+    pub reach: [f32; 2],
+}
+
+impl Interface {
+    /// The interface of an overlap. `share` is the part of it by which the first skin yields, from 0 to 1: its compliance
+    /// over that of both. `along` is the direction that the rectangle follows; it is a disc where there is none.
+    ///
+    /// None where nothing overlaps.
+    pub fn of(overlap: &Overlap, normal: Vec3, along: Option<Vec3>, share: f32) -> Option<Self> {
+        if overlap.is_empty() {
+            return None;
+        }
+        let frame = frame_of(normal, along.unwrap_or(Vec3::ZERO));
+        let (low, high) = overlap.heights(normal);
+        let plane = low + (high - low) * share;
+        let points = || overlap.a.iter().chain(&overlap.b).map(|p| p.position);
+        let (mut from, mut to) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for x in points() {
+            let local = frame.transpose() * x;
+            (from, to) = (from.min(local), to.max(local));
+        }
+        let middle = 0.5 * (from + to);
+        let half = 0.5 * (to - from);
+        let centre = frame * Vec3::new(middle.x, middle.y, plane);
+        let aside = |x: Vec3| (x - centre - frame.z_axis * (x - centre).dot(frame.z_axis)).length();
+        let round = along.is_none().then(|| points().map(aside).fold(0.0, f32::max));
+        Some(Self { centre, frame, half: [half.x, half.y], round, reach: [plane - low, high - plane] })
+    }
+}
+
+/// The convex part that pushes one of the two skins to its side of the interface: a box with the interface as its face.
+///
+/// `first` tells which of the two skins; the box is as deep as that skin reaches beyond the interface, and `margin`
+/// metres more, and `margin` metres wider on each side than the overlap.
+///
+/// # Errors
+/// Where the box is not finite.
+pub fn interface_part(
+    interface: &Interface,
+    first: bool,
+    margin: f32,
+    id: PartId,
+) -> Result<ObstaclePart, ObstacleError> {
+    let out = if first { interface.frame.z_axis } else { -interface.frame.z_axis };
+    let depth = 0.5 * (interface.reach[usize::from(!first)] + margin);
+    let beside = margin * BESIDE;
+    let flat = Quat::from_mat3(&interface.frame);
+    let (shape, rotation) = match interface.round {
+        // Parry's cylinders stand along y.
+        Some(radius) => (SharedShape::cylinder(depth, radius + beside), flat * Quat::from_rotation_x(FRAC_PI_2)),
+        None => (SharedShape::cuboid(interface.half[0] + beside, interface.half[1] + beside, depth), flat),
+    };
+    let pose = Pose::from_parts(interface.centre - out * depth, rotation);
+    let mut parts = convex_parts(&shape)?;
+    let local = parts.swap_remove(0);
+    Ok(ObstaclePart::new(id, ColliderHandle::invalid(), &local, pose))
+}
+
+/// The box is wider than the overlap by this part of its margin.
+const BESIDE: f32 = 0.1;
