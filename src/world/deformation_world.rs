@@ -11,7 +11,7 @@ use rapier3d::pipeline::PhysicsWorld;
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::{
-    CancelSettings, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError, PartCache, PartId, Ragdoll,
+    CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError, PartCache, PartId, Ragdoll,
     RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
@@ -107,6 +107,8 @@ pub(super) struct Entry {
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
     pub memories: ContactMemories,
+    /// For the measurement of the time coherence.
+    pub coherence: CoherenceMemory,
     /// False until the body has been placed on its rigid bodies.
     pub placed: bool,
     /// What the last deformation was made from, and what came out.
@@ -199,6 +201,7 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            coherence: CoherenceMemory::default(),
             placed,
             last: None,
         };

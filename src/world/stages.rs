@@ -14,7 +14,7 @@ use super::deformation_world::{
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, ElasticSide, ObstacleError, ObstaclePart, Proximity, cancel, measure, obstacles_near, proximities,
+    CancelReport, ElasticSide, ObstacleError, ObstaclePart, Proximity, TimeCoherence, cancel, measure, obstacles_near, proximities,
     push_back, remember_skin_contacts, skin_contacts,
 };
 use crate::math::{Pose, Vec3};
@@ -165,6 +165,9 @@ impl DeformationWorld {
     fn cancel_penetrations(&mut self, encounters: &mut [Encounter]) {
         for encounter in encounters.iter_mut().filter(|e| e.is_active()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
+            if self.settings.measure {
+                entry.coherence.begin(&entry.body);
+            }
             if entry.body.settings.enabled {
                 let settings = &self.settings.cancel;
                 encounter.cancelled = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
@@ -206,12 +209,19 @@ impl DeformationWorld {
             };
             if self.settings.measure && encounter.frozen.is_none() {
                 let Encounter { parts, cancelled, .. } = &encounter;
+                let cancel = &self.settings.cancel;
                 figures.penetration = measure(&entry.body, parts, entry.size, cancelled);
+                figures.penetration.coherence =
+                    entry.coherence.end(&entry.body, parts, cancelled, entry.size, cancel);
                 let volume =
                     crate::mesh::measure::signed_volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
                 figures.volume_ratio = (volume / entry.rest_volume) as f32;
+            } else {
+                entry.coherence.forget();
             }
             report.bodies.push((encounter.handle, figures));
+            // A skin that stays as it is does not change.
+            figures.penetration.coherence = TimeCoherence::default();
             let settled = |circumstances| Settled { circumstances, report: figures };
             entry.last = encounter.circumstances.map(settled);
         }
