@@ -8,6 +8,7 @@ use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, find_contacts, find_piercings};
 use super::strength::solve_pass;
 use crate::elastic::ElasticBody;
+use crate::math::Vec3;
 
 /// Tolerances and limits of the cancellation; lengths as fractions of the body's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,11 +61,14 @@ pub struct CancelReport {
     pub contacts: Vec<Contact>,
     /// Number of passes.
     pub passes: u32,
+    /// Depth in metres that no pass could cancel, by the shortest way out; 0 where nothing deeper than the tolerance is left.
+    pub left: f32,
 }
 
 /// Cancels the penetration of `body` into `parts`: adds passes to its palette and carries its skin along.
 ///
-/// `size` is the body's size, the unit of the tolerances.
+/// Each pass handles what the last left over. A body that is pinned, without room for its volume, may get worse by further
+/// passes: the best state is kept, and what is left is reported. `size` is the body's size, the unit of the tolerances.
 pub fn cancel(
     body: &mut ElasticBody,
     parts: &[ObstaclePart],
@@ -73,57 +77,72 @@ pub fn cancel(
     settings: &CancelSettings,
 ) -> CancelReport {
     let mut report = CancelReport::default();
+    if settings.placement == Placement::Literal {
+        return literal(body, parts, near, size, settings);
+    }
     let tolerance = settings.depth_tolerance * size;
-    let softness = settings.softness.unwrap_or(body.rig().softness);
-    while report.passes < settings.max_passes {
+    let mut best = Best { worst: f32::INFINITY, positions: Vec::new(), passes: 0 };
+    let before = body.palette().passes.len();
+    loop {
         let mut contacts = find_contacts(body, parts, near, tolerance);
-        if report.passes > 0 {
+        if report.passes > 0 || contacts.is_empty() {
             contacts.extend(find_piercings(body, parts, near, tolerance));
         }
-        if contacts.is_empty() && report.passes == 0 {
-            contacts = find_piercings(body, parts, near, tolerance);
+        report.left = contacts.iter().map(|contact| contact.shortest_depth(body, parts)).fold(0.0, f32::max);
+        if report.left < best.worst {
+            best = Best { worst: report.left, positions: body.positions().to_vec(), passes: report.passes };
         }
-        if contacts.is_empty() {
+        let stuck = report.passes - best.passes >= PATIENCE;
+        if contacts.is_empty() || stuck || report.passes >= settings.max_passes {
             break;
         }
-        // What two passes leave over is small and wedged: it is pushed out on the nearest way, by narrower fields.
-        let narrow = (report.passes + 1).saturating_sub(WIDE_PASSES);
-        let reach = (softness * if narrow > 0 { 0.5 } else { 1.0 }).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
-        if narrow > 0 {
+        let softness = settings.softness.unwrap_or(body.rig().softness);
+        let mut reach = softness.clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
+        if report.passes >= WIDE_PASSES {
+            // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
+            reach *= 0.5;
             contacts =
                 contacts.into_iter().map(|c| if c.pierced { c } else { c.by_the_nearest_way(body, parts) }).collect();
         }
-        let pass = match settings.placement {
-            Placement::Hugging => solve_pass(body, parts, near, &contacts, reach, size, settings),
-            Placement::Literal => super::literal::place(body, parts, near, softness),
-        };
-        report.passes += 1;
-        if std::env::var("DEBUG").is_ok() {
-            for (c, f) in contacts.iter().zip(&pass.fields) {
-                println!(
-                    "  pass {} seg {} part {} n {:.2} depth {:.4} points {} r {:.3} pierced {} d {:.4} steps {}",
-                    report.passes,
-                    c.near.segment,
-                    c.near.part,
-                    c.near.normal,
-                    c.depth(),
-                    c.points.len(),
-                    c.radius,
-                    c.pierced,
-                    f.field.displacement().length(),
-                    pass.steps
-                );
-            }
-        }
-        if report.passes == 1 {
+        let pass = solve_pass(body, parts, near, &contacts, reach, size, settings);
+        if report.passes == 0 {
             report.contacts = contacts;
         }
+        report.passes += 1;
         body.deform_collision(pass);
-        if settings.placement == Placement::Literal {
-            break;
-        }
+    }
+    if best.passes < report.passes {
+        body.restore(&best.positions, before + best.passes as usize);
+        (report.passes, report.left) = (best.passes, best.worst);
     }
     report
+}
+
+/// The best state so far.
+struct Best {
+    worst: f32,
+    positions: Vec<Vec3>,
+    passes: u32,
+}
+
+/// Passes that may go by without any gain.
+const PATIENCE: u32 = 2;
+
+/// One pass with the paper's placement.
+fn literal(
+    body: &mut ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    size: f32,
+    settings: &CancelSettings,
+) -> CancelReport {
+    let contacts = find_contacts(body, parts, near, settings.depth_tolerance * size);
+    if contacts.is_empty() {
+        return CancelReport::default();
+    }
+    let pass = super::literal::place(body, parts, near, settings.softness.unwrap_or(body.rig().softness));
+    body.deform_collision(pass);
+    CancelReport { contacts, passes: 1, left: 0.0 }
 }
 
 /// Softness outside of these bounds is taken as the bound.
@@ -131,4 +150,4 @@ const LEAST_SOFTNESS: f32 = 0.05;
 const MOST_SOFTNESS: f32 = 10.0;
 
 /// Passes with fields of full width.
-const WIDE_PASSES: u32 = 1;
+const WIDE_PASSES: u32 = 2;

@@ -112,9 +112,8 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
         let of_collider = PartId { collider, part: 0 }..=PartId { collider, part: u32::MAX };
         let mut common = now.parts.range(of_collider).filter_map(|(id, new)| Some((last.parts.get(id)?, new)));
         let (old, new) = common.next()?;
-        let way = |(a, b): (&Vec3, &Vec3)| {
-            old.inverse_transform_point(*a).distance_squared(new.inverse_transform_point(*b))
-        };
+        let way =
+            |(a, b): (&Vec3, &Vec3)| old.inverse_transform_point(*a).distance_squared(new.inverse_transform_point(*b));
         let farthest = last.before.par_iter().zip(&now.before).with_min_len(1024).map(way).reduce(|| 0.0, f32::max);
         motion = motion.max(farthest.sqrt());
     }
@@ -124,6 +123,7 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
 
 /// The segment with most weight in a vertex.
 fn heaviest_segment(skin: &SkinWeights) -> usize {
-    let heaviest = (0..skin.weights.len()).fold(0, |best, k| if skin.weights[k] > skin.weights[best] { k } else { best });
+    let heaviest =
+        (0..skin.weights.len()).fold(0, |best, k| if skin.weights[k] > skin.weights[best] { k } else { best });
     usize::from(skin.segments[heaviest])
 }

@@ -39,9 +39,9 @@ mod measure;
 mod ragdoll;
 
 pub use foundation::{
-    Approach, ContactMaterial, ElasticSide, FoundationContact, FoundationMemory, FoundationPoint, FoundationSettings,
-    PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts, remember_skin_contacts,
-    skin_contacts,
+    Approach, ContactKeys, ContactMaterial, ElasticSide, FoundationContact, FoundationMemory, FoundationPoint,
+    FoundationSettings, PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts,
+    remember_skin_contacts, skin_contacts,
 };
 pub use measure::{INSIDE, PIERCED, PIERCING_RESOLUTION, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};

@@ -150,6 +150,14 @@ impl Contact {
         self.points.first().map_or(0.0, |p| p.depth)
     }
 
+    /// The deepest point by the shortest way out, in metres.
+    pub fn shortest_depth(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> f32 {
+        let depth = |p: &Penetration| parts[p.part].way_to_surface(p.point.position(body.positions())).length();
+        // What has gone through a thin part is not in it any more, and is as deep as the way back is long.
+        let through = |p: &Penetration, depth: f32| if depth > 0.0 { depth.min(p.depth) } else { p.depth };
+        self.points.iter().map(|p| through(p, depth(p))).fold(0.0, f32::max)
+    }
+
     /// The parts that the points are in, each once.
     pub fn parts(&self) -> BTreeSet<usize> {
         self.points.iter().map(|p| p.part).collect()

@@ -242,6 +242,24 @@ impl ElasticBody {
         self.build_drags();
     }
 
+    /// Takes back all collision passes but the first `passes`, after which the skin was at `positions`. Nothing happens
+    /// unless there is one position a vertex.
+    pub fn restore(&mut self, positions: &[Vec3], passes: usize) {
+        if positions.len() == self.positions.len() {
+            self.positions.copy_from_slice(positions);
+            self.palette.passes.truncate(passes);
+        }
+    }
+
+    /// Where the rigid segments alone would carry each vertex: equation (18) without fields.
+    pub fn rigid_positions(&self) -> Vec<Vec3> {
+        let carried = |(x, skin): (&Vec3, &SkinWeights)| {
+            let share = |k: usize| self.motions[usize::from(skin.segments[k])].transform_point(*x) * skin.weights[k];
+            (0..MAX_INFLUENCES).filter(|&k| skin.weights[k] > 0.0).map(share).sum()
+        };
+        self.rig.mesh.positions.iter().zip(&self.rig.weights).map(carried).collect()
+    }
+
     /// True when every vertex is finite.
     pub fn is_finite(&self) -> bool {
         self.positions.iter().all(|x| x.is_finite())

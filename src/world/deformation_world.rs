@@ -11,8 +11,8 @@ use rapier3d::pipeline::PhysicsWorld;
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::{
-    CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError, PartCache, PartId, Ragdoll,
-    RagdollStart,
+    CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
+    PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
@@ -91,6 +91,7 @@ pub enum InsertError {
 pub(super) struct Circumstances {
     pub motions: Vec<Pose>,
     pub parts: Vec<(PartId, PlacedPart)>,
+    pub neighbours: Vec<ElasticBodyHandle>,
     pub world: DeformationSettings,
     pub body: DeformSettings,
 }
@@ -130,6 +131,7 @@ pub struct DeformationWorld {
     pub(super) parts: PartCache,
     pub(super) own: BTreeSet<(u32, u32)>,
     pub(super) foundation: FoundationMemory,
+    pub(super) approaches: PairApproaches,
     pub(super) report: StepReport,
 }
 

@@ -1,7 +1,10 @@
 //! The deformation world: all elastic bodies of a rapier world, and the one verb that moves them.
 
 mod deformation_world;
+mod encounter;
+mod meetings;
 mod report;
+mod rest;
 mod stages;
 mod view;
 

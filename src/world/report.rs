@@ -25,6 +25,9 @@ pub struct BodyReport {
     pub volume_ratio: f32,
     /// Depths and gaps before and after the cancellation.
     pub penetration: PenetrationFigures,
+    /// Deepest overlap with another elastic body, or of two segments of this one, that is left after the cancellation,
+    /// along the line between their axes, as a fraction of the body's size.
+    pub max_pair_depth: f32,
     /// Passes of the cancellation.
     pub passes: u32,
     /// Most integration steps of any stage.

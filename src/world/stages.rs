@@ -7,38 +7,17 @@ use rapier3d::dynamics::RigidBodySet;
 use rapier3d::geometry::ColliderHandle;
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::pipeline::QueryFilter;
+use rayon::prelude::*;
 
-use super::deformation_world::{
-    Circumstances, DeformationSettings, DeformationWorld, ElasticBodyHandle, Entry, Settled,
-};
+use super::deformation_world::{DeformationWorld, ElasticBodyHandle, Entry, Settled};
+use super::encounter::Encounter;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, ElasticSide, ObstacleError, ObstaclePart, Proximity, TimeCoherence, cancel, measure, obstacles_near, proximities,
-    push_back, remember_skin_contacts, skin_contacts,
+    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, measure,
+    obstacles_near, proximities, push_back, remember_pair_contacts, remember_skin_contacts, skin_contacts,
 };
 use crate::math::{Pose, Vec3};
-
-/// What one body meets in this step.
-struct Encounter {
-    handle: ElasticBodyHandle,
-    frozen: Option<Frozen>,
-    motions: Vec<Pose>,
-    parts: Vec<ObstaclePart>,
-    near: Vec<Proximity>,
-    cancelled: CancelReport,
-    /// Nothing has changed since the last step: the skin stays as it is.
-    settled: Option<BodyReport>,
-    /// What to remember, where the mass-spring sets are at rest.
-    circumstances: Option<Circumstances>,
-}
-
-impl Encounter {
-    /// True where the skin has to be deformed in this step.
-    fn is_active(&self) -> bool {
-        self.frozen.is_none() && self.settled.is_none()
-    }
-}
 
 impl DeformationWorld {
     /// [`DeformationWorld::step`] for separate sets.
@@ -52,7 +31,7 @@ impl DeformationWorld {
 
         let clock = Instant::now();
         self.find_obstacles(&mut encounters, rapier, &mut report);
-        self.push_bodies_back(&encounters, rapier);
+        self.find_resting(&mut encounters);
         report.times.contact = lap(clock);
 
         let clock = Instant::now();
@@ -60,7 +39,9 @@ impl DeformationWorld {
         report.times.deform = lap(clock);
 
         let clock = Instant::now();
-        self.cancel_penetrations(&mut encounters);
+        let pairs = self.find_pairs(&encounters);
+        self.push_bodies_back(&mut encounters, &pairs, rapier);
+        self.cancel_penetrations(&mut encounters, &pairs);
         report.times.contact += lap(clock);
 
         let clock = Instant::now();
@@ -76,23 +57,7 @@ impl DeformationWorld {
 
     /// Where every segment is now; bodies whose parents vanished, are disabled or not finite are frozen.
     fn read_parents(&self, bodies: &RigidBodySet) -> Vec<Encounter> {
-        let read = |(index, entry): (_, &Entry)| {
-            let (frozen, motions) = match read_motions(entry, bodies) {
-                Ok(motions) => (None, motions),
-                Err(frozen) => (Some(frozen), Vec::new()),
-            };
-            let handle = ElasticBodyHandle(index);
-            Encounter {
-                handle,
-                frozen,
-                motions,
-                parts: Vec::new(),
-                near: Vec::new(),
-                cancelled: CancelReport::default(),
-                settled: None,
-                circumstances: None,
-            }
-        };
+        let read = |(index, entry): (_, &Entry)| Encounter::new(ElasticBodyHandle(index), read_motions(entry, bodies));
         self.entries.iter().map(read).collect()
     }
 
@@ -121,80 +86,93 @@ impl DeformationWorld {
         for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             let own = |handle: rapier3d::dynamics::RigidBodyHandle| self.own.contains(&handle.into_raw_parts());
-            let region = region_of(entry);
+            encounter.region = region_of(entry);
+            let region = &encounter.region;
             let thickness = self.settings.surface_thickness * entry.size;
             encounter.parts =
-                obstacles_near(&query, &region, thickness, entry.groups, &own, &mut self.parts, &mut refused);
+                obstacles_near(&query, region, thickness, entry.groups, &own, &mut self.parts, &mut refused);
+            encounter.obstacles = encounter.parts.len();
             let margin = swing(entry);
             encounter.near = proximities(&entry.body, &encounter.parts, margin, &mut entry.memories);
-            if entry.body.settle_springs(SETTLED * entry.size) {
-                let now = circumstances(entry, encounter, &self.settings);
-                let last = entry.last.as_ref().filter(|last| last.circumstances == now);
-                encounter.settled = last.map(|last| last.report);
-                encounter.circumstances = Some(now);
-            }
         }
         report.refused = refused.into_values().collect();
     }
 
     /// Repelling impulses in proportion to the depth, all bodies together.
-    fn push_bodies_back(&mut self, encounters: &[Encounter], rapier: &mut RapierView<'_>) {
+    fn push_bodies_back(&mut self, encounters: &mut [Encounter], pairs: &[SegmentPair], rapier: &mut RapierView<'_>) {
         let step = rapier.step_size();
         let mut contacts = Vec::new();
-        for encounter in encounters.iter().filter(|e| e.frozen.is_none()) {
+        for encounter in encounters.iter_mut().filter(|e| e.frozen.is_none()) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             let (body, ragdoll, stiffness) = (&entry.body, &entry.ragdoll, self.settings.stiffness);
             let side = ElasticSide::of(encounter.handle.into_raw_parts(), body, ragdoll, stiffness, rapier.bodies);
+            encounter.stiffness = side.material.stiffness;
             let found = skin_contacts(side, body, ragdoll, &encounter.parts, &encounter.near, rapier.colliders);
             contacts.extend(remember_skin_contacts(found, &mut entry.memories, &step, rapier.bodies));
         }
+        let mut between = self.pair_foundation(encounters, pairs, rapier.bodies);
+        remember_pair_contacts(&mut between, &mut self.approaches, &step, rapier.bodies);
+        contacts.extend(between);
         push_back(&contacts, &step, self.settings.foundation, &mut self.foundation, rapier.bodies);
     }
 
     /// Local and global spring stages on every vertex.
     fn deform_by_springs(&mut self, encounters: &[Encounter]) {
-        for encounter in encounters.iter().filter(|e| e.is_active()) {
-            if let Some(entry) = self.entries.get_mut(encounter.handle.0) {
-                entry.body.build_palette();
-                entry.body.deform_springs();
-            }
-        }
+        self.active(encounters).into_par_iter().for_each(|(entry, _)| {
+            entry.body.build_palette();
+            entry.body.deform_springs();
+        });
     }
 
     /// The collision stage: what is left of the penetration vanishes from the visible surface.
-    fn cancel_penetrations(&mut self, encounters: &mut [Encounter]) {
-        for encounter in encounters.iter_mut().filter(|e| e.is_active()) {
-            let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
-            if self.settings.measure {
-                entry.coherence.begin(&entry.body);
+    ///
+    /// The first round pushes skins out of obstacles and out of each other; where that makes them bulge into each other
+    /// anew, further rounds follow.
+    fn cancel_penetrations(&mut self, encounters: &mut [Encounter], pairs: &[SegmentPair]) {
+        if self.settings.measure {
+            self.active(encounters).into_par_iter().for_each(|(entry, _)| entry.coherence.begin(&entry.body));
+        }
+        let mut pairs = pairs.to_vec();
+        for round in 0..=PAIR_ROUNDS {
+            let touched = self.part_skins(encounters, &pairs, round);
+            if round > 0 && !touched.contains(&true) {
+                break;
             }
-            if entry.body.settings.enabled {
-                let settings = &self.settings.cancel;
-                encounter.cancelled = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
-            }
-            if !entry.body.is_finite() {
-                // Whatever it was, it is not to be seen: the skin follows the rigid bodies, and the report says why.
-                entry.body.place(&encounter.motions);
-                entry.body.build_palette();
-                entry.body.deform_springs();
-                entry.body.renew_normals();
-                encounter.cancelled = CancelReport::default();
-                encounter.frozen = Some(Frozen::NotFinite);
-            }
+            let again: Vec<bool> = touched.iter().map(|touched| *touched || round == 0).collect();
+            let settings = self.settings.cancel;
+            let mut jobs = self.active_mut(encounters, &again);
+            jobs.par_iter_mut().for_each(|(entry, encounter)| cancel_one(entry, encounter, &settings));
+            pairs = self.find_pairs(encounters);
+        }
+        if self.settings.measure {
+            self.measure_pairs(encounters, &pairs);
         }
     }
 
     /// Normals of the skin as it is drawn.
     fn renew_normals(&mut self, encounters: &[Encounter]) {
-        for encounter in encounters.iter().filter(|e| e.is_active()) {
-            if let Some(entry) = self.entries.get_mut(encounter.handle.0) {
-                entry.body.renew_normals();
-            }
-        }
+        self.active(encounters).into_par_iter().for_each(|(entry, _)| entry.body.renew_normals());
+    }
+
+    /// The bodies that are deformed in this step.
+    fn active<'a>(&'a mut self, encounters: &'a [Encounter]) -> Vec<(&'a mut Entry, &'a Encounter)> {
+        let entries = self.entries.iter_mut().map(|(_, entry)| entry);
+        entries.zip(encounters).filter(|(_, encounter)| encounter.is_active()).collect()
+    }
+
+    /// Those of them for which `chosen` is true.
+    fn active_mut<'a>(
+        &'a mut self,
+        encounters: &'a mut [Encounter],
+        chosen: &[bool],
+    ) -> Vec<(&'a mut Entry, &'a mut Encounter)> {
+        let entries = self.entries.iter_mut().map(|(_, entry)| entry);
+        let all = entries.zip(encounters).zip(chosen);
+        all.filter(|((_, e), chosen)| **chosen && e.is_active()).map(|(job, _)| job).collect()
     }
 
     fn write_report(&mut self, encounters: &mut Vec<Encounter>, report: &mut StepReport) {
-        for encounter in encounters.drain(..) {
+        for mut encounter in encounters.drain(..) {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             if let Some(figures) = encounter.settled {
                 report.bodies.push((encounter.handle, figures));
@@ -208,11 +186,13 @@ impl DeformationWorld {
                 ..BodyReport::default()
             };
             if self.settings.measure && encounter.frozen.is_none() {
-                let Encounter { parts, cancelled, .. } = &encounter;
                 let cancel = &self.settings.cancel;
-                figures.penetration = measure(&entry.body, parts, entry.size, cancelled);
-                figures.penetration.coherence =
-                    entry.coherence.end(&entry.body, parts, cancelled, entry.size, cancel);
+                let Encounter { parts, obstacles, cancelled, .. } = &mut encounter;
+                let coherence = entry.coherence.end(&entry.body, parts, cancelled, entry.size, cancel);
+                cancelled.contacts.retain(|contact| contact.near.part < *obstacles);
+                figures.penetration = measure(&entry.body, &parts[..*obstacles], entry.size, cancelled);
+                figures.penetration.coherence = coherence;
+                figures.max_pair_depth = encounter.pair_depth / entry.size;
                 let volume =
                     crate::mesh::measure::signed_volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
                 figures.volume_ratio = (volume / entry.rest_volume) as f32;
@@ -228,19 +208,6 @@ impl DeformationWorld {
     }
 }
 
-/// Everything that the deformation of a body with resting sets depends on.
-fn circumstances(entry: &Entry, encounter: &Encounter, settings: &DeformationSettings) -> Circumstances {
-    Circumstances {
-        motions: encounter.motions.clone(),
-        parts: encounter.parts.iter().map(|part| (part.id, part.placed.clone())).collect(),
-        world: *settings,
-        body: entry.body.settings,
-    }
-}
-
-/// Sets that move less than this, as a fraction of the body's size, are at rest.
-const SETTLED: f32 = 1.0e-4;
-
 fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Frozen> {
     let rest = &entry.body.rig().rest_poses;
     let motion = |(handle, rest): (_, &Pose)| {
@@ -253,6 +220,28 @@ fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Froze
     };
     entry.ragdoll.bodies.iter().copied().zip(rest).map(motion).collect()
 }
+
+/// Cancels what one body penetrates, in addition to what was cancelled before.
+fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSettings) {
+    if entry.body.settings.enabled {
+        let report = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
+        encounter.cancelled.passes += report.passes;
+        encounter.cancelled.left = report.left;
+        encounter.cancelled.contacts.extend(report.contacts);
+    }
+    if !entry.body.is_finite() {
+        // Whatever it was, it is not to be seen: the skin follows the rigid bodies, and the report says why.
+        entry.body.place(&encounter.motions);
+        entry.body.build_palette();
+        entry.body.deform_springs();
+        entry.body.renew_normals();
+        encounter.cancelled = CancelReport::default();
+        encounter.frozen = Some(Frozen::NotFinite);
+    }
+}
+
+/// Rounds in which skins that were pushed into each other by the first are pushed apart again.
+const PAIR_ROUNDS: u32 = 3;
 
 /// How far the skin may be carried beyond the rigid segments: by the springs, and by the cancellation out of one
 /// obstacle towards the next.

@@ -23,10 +23,6 @@ fn comes_to_rest(scene: &mut Scene, bodies: &[RigidBodyHandle], what: &str) {
         asleep = all.then(|| asleep.unwrap_or(frame));
     }
     for (&body, mark) in bodies.iter().zip(&marks) {
-        let moved = scene.position(body).distance(*mark);
-        println!("{what}: moved {moved:.5}, at {}, asleep since {asleep:?}", scene.position(body));
-    }
-    for (&body, mark) in bodies.iter().zip(&marks) {
         assert!(scene.position(body).distance(*mark) < 0.005, "{what}: drifts to {}", scene.position(body));
     }
     assert!(asleep.is_some(), "{what}: does not fall asleep");

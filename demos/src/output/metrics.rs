@@ -107,8 +107,7 @@ mod tests {
         table.write(&row).unwrap();
         table.finish().unwrap();
         let text = fs::read_to_string(&path).unwrap();
-        let rows =
-            "3,\"a \"\"b\"\", c\",1.0,0.0,0.0,0.0,0.0,0,0.0,0,0,0.0,0.0,0.0,0.0\n0,d,0.0,0.0,0.0,0.0,0.25,0,0.0,2,0,0.0,0.0,0.0,1.5\n";
+        let rows = "3,\"a \"\"b\"\", c\",1.0,0.0,0.0,0.0,0.0,0,0.0,0,0,0.0,0.0,0.0,0.0\n0,d,0.0,0.0,0.0,0.0,0.25,0,0.0,2,0,0.0,0.0,0.0,1.5\n";
         assert_eq!(text, format!("{METRICS_HEADER}\n{rows}"));
     }
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 
+use super::build::ContactKeys;
 use super::{ElasticSide, FoundationContact, FoundationPoint, StepSize};
 use crate::coupling::obstacle::PartId;
 use crate::coupling::surroundings::ContactMemories;
@@ -80,7 +81,7 @@ impl Pull {
 
 /// Tells a body's contacts with obstacles how fast they closed, and remembers it with each segment and part.
 pub fn remember_skin_contacts(
-    contacts: Vec<(FoundationContact, Vec<(u16, PartId)>)>,
+    contacts: Vec<(FoundationContact, ContactKeys)>,
     memories: &mut ContactMemories,
     step: &StepSize,
     bodies: &RigidBodySet,
@@ -90,7 +91,7 @@ pub fn remember_skin_contacts(
         // The contact is over: the next one begins anew, however soon.
         memory.approach = Approach::default();
     }
-    let remember = |(mut contact, keys): (FoundationContact, Vec<(u16, PartId)>)| {
+    let remember = |(mut contact, keys): (FoundationContact, ContactKeys)| {
         let now = Approach::speed_now(&contact, step.gravity, bodies);
         let period = period(&contact, step.dt);
         contact.approach = now;

@@ -16,6 +16,9 @@ use crate::math::Vec3;
 /// Cosine between two directions that count as one.
 const SAME_WAY: f32 = 0.82;
 
+/// The segments and parts that a contact is made of.
+pub type ContactKeys = Vec<(u16, PartId)>;
+
 /// The contacts of one elastic body with the parts `near` it, each with the segments and parts that it is made of: the
 /// thinned points of the skin that are inside. Parts that push a segment nearly the same way make one contact.
 pub fn skin_contacts(
@@ -25,8 +28,8 @@ pub fn skin_contacts(
     parts: &[ObstaclePart],
     near: &[Proximity],
     colliders: &ColliderSet,
-) -> Vec<(FoundationContact, Vec<(u16, PartId)>)> {
-    let mut contacts: Vec<(Proximity, FoundationContact, Vec<(u16, PartId)>)> = Vec::new();
+) -> Vec<(FoundationContact, ContactKeys)> {
+    let mut contacts: Vec<(Proximity, FoundationContact, ContactKeys)> = Vec::new();
     for near in near {
         let part = &parts[near.part];
         let points = points_inside(body, ragdoll, part, near, side.material, colliders);
@@ -34,7 +37,7 @@ pub fn skin_contacts(
             continue;
         }
         let key = (near.segment, part.id);
-        let same = |(first, ..): &&mut (Proximity, FoundationContact, Vec<(u16, PartId)>)| {
+        let same = |(first, ..): &&mut (Proximity, FoundationContact, ContactKeys)| {
             first.segment == near.segment && first.normal.dot(near.normal) > SAME_WAY
         };
         match contacts.iter_mut().find(same) {
@@ -120,7 +123,8 @@ pub struct PairPoint {
 /// once, not once from either side. The contacts' `approach` is 0 still.
 pub fn pair_contacts(sides: [ElasticSide; 2], points: &[PairPoint]) -> Vec<FoundationContact> {
     let friction = 0.5 * (sides[0].material.friction + sides[1].material.friction);
-    let mut contacts: BTreeMap<[(u32, u32); 2], Vec<(Vec3, FoundationContact)>> = BTreeMap::new();
+    type Bundles = Vec<(Vec3, FoundationContact)>;
+    let mut contacts: BTreeMap<[(u32, u32); 2], Bundles> = BTreeMap::new();
     for pair in points.iter().filter(|pair| pair.depth > 0.0) {
         let [body, other] = pair.bodies;
         let PairPoint { position, normal, depth, .. } = *pair;

@@ -31,7 +31,7 @@ use crate::elastic::ElasticBody;
 use crate::math::Vec3;
 
 pub use approach::{Approach, PairApproaches, remember_pair_contacts, remember_skin_contacts};
-pub use build::{PairPoint, pair_contacts, skin_contacts};
+pub use build::{ContactKeys, PairPoint, pair_contacts, skin_contacts};
 pub use islands::push_back;
 pub use material::ContactMaterial;
 pub use velocities::StepSize;

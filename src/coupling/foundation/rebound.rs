@@ -53,6 +53,8 @@ impl Rebound {
             let left = 1.0 / (1.0 + fully.drag / material.mass);
             let taken = opening * opening * (1.0 - left * left);
             damped.damping_ratio *= if taken > 0.0 { (surplus / taken).clamp(0.0, 1.0) } else { 1.0 };
+        } else {
+            damped.damping_ratio = damped.damping_ratio.max(RESTING_DAMPING);
         }
         let limit = needed.sqrt() - drift * pull.relative * step.dt;
         let limit = limit.max(depth * RECOVERY.min(0.5 / step.dt));
@@ -62,6 +64,9 @@ impl Rebound {
 
 /// What closes no faster than so many steps of gravity make it, comes to rest instead of bouncing.
 const RESTING: f32 = 2.5;
+
+/// Least damping ratio of what does not bounce: it comes to rest before long.
+const RESTING_DAMPING: f32 = 0.3;
 
 /// Rate, in 1/s, at which a body that appeared inside an obstacle is let out: it is not shot out.
 const RECOVERY: f32 = 6.0;

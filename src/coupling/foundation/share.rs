@@ -25,7 +25,9 @@ pub fn materials(contacts: &[FoundationContact]) -> Vec<ContactMaterial> {
 
 /// For each contact and side, the part of the elastic body's stiffness that the contact uses, in (0, 1].
 fn shares(contacts: &[FoundationContact]) -> Vec<[f32; 2]> {
-    let mut by_owner: BTreeMap<(u32, u32), Vec<(usize, usize, Vec3, f32)>> = BTreeMap::new();
+    // Index of the contact, side, way out, and how much of it there is.
+    type Owned = Vec<(usize, usize, Vec3, f32)>;
+    let mut by_owner: BTreeMap<(u32, u32), Owned> = BTreeMap::new();
     for (index, contact) in contacts.iter().enumerate() {
         for (side, elastic) in contact.sides.iter().enumerate() {
             let Some(elastic) = elastic else { continue };

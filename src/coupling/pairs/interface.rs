@@ -5,7 +5,7 @@ use std::f32::consts::FRAC_PI_2;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
 
 use super::overlap::{Overlap, frame_of};
-use crate::coupling::obstacle::{ObstacleError, ObstaclePart, PartId, convex_parts};
+use crate::coupling::obstacle::{ObstacleError, ObstaclePart, OuterFace, PartId, convex_parts};
 use crate::math::{Mat3, Pose, Quat, Vec3};
 
 /// Where two skins are to touch: a rectangle or a disc across the line between their axes.
@@ -66,16 +66,28 @@ pub fn interface_part(
     let out = if first { interface.frame.z_axis } else { -interface.frame.z_axis };
     let depth = 0.5 * (interface.reach[usize::from(!first)] + margin);
     let beside = margin * BESIDE;
+    let half = interface.half.map(|half| half + beside);
     let flat = Quat::from_mat3(&interface.frame);
     let (shape, rotation) = match interface.round {
         // Parry's cylinders stand along y.
         Some(radius) => (SharedShape::cylinder(depth, radius + beside), flat * Quat::from_rotation_x(FRAC_PI_2)),
-        None => (SharedShape::cuboid(interface.half[0] + beside, interface.half[1] + beside, depth), flat),
+        None => (SharedShape::cuboid(half[0], half[1], depth), flat),
     };
     let pose = Pose::from_parts(interface.centre - out * depth, rotation);
     let mut parts = convex_parts(&shape)?;
     let local = parts.swap_remove(0);
-    Ok(ObstaclePart::new(id, ColliderHandle::invalid(), &local, pose))
+    let mut part = ObstaclePart::new(id, ColliderHandle::invalid(), &local, pose);
+    // Nothing leaves through the sides: the other skin is all around.
+    part.face = Some(OuterFace {
+        normal: out,
+        offset: out.dot(interface.centre),
+        area: 4.0 * half[0] * half[1],
+        middle: interface.centre,
+        thickness: 2.0 * depth,
+        two_sided: false,
+        edges: Vec::new(),
+    });
+    Ok(part)
 }
 
 /// The box is wider than the overlap by this part of its margin.

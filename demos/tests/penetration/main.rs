@@ -27,7 +27,10 @@ fn run(path: PathBuf, seed: u64, frames: u64) -> WorstFigures {
             let bad = worst.bad;
             worst.see(frame, &actor.name, &report);
             if log && worst.bad > bad {
-                println!("{} seed {seed} frame {frame} {}: {:?} {} passes", simulation.scene.name, actor.name, report.penetration, report.passes);
+                println!(
+                    "{} seed {seed} frame {frame} {}: {:?} {} passes",
+                    simulation.scene.name, actor.name, report.penetration, report.passes
+                );
             }
         }
     }

@@ -1,0 +1,59 @@
+//! What one body meets in a step.
+
+use rapier3d::parry::bounding_volume::Aabb;
+
+use super::deformation_world::{Circumstances, ElasticBodyHandle};
+use super::report::{BodyReport, Frozen};
+use crate::coupling::{CancelReport, ObstaclePart, Proximity};
+use crate::math::Pose;
+
+/// What one body meets in this step.
+pub(super) struct Encounter {
+    pub handle: ElasticBodyHandle,
+    pub frozen: Option<Frozen>,
+    pub motions: Vec<Pose>,
+    /// Everything that the skin may touch lies in here.
+    pub region: Aabb,
+    /// The convex parts of obstacles, then those of the interfaces with other elastic bodies and with itself.
+    pub parts: Vec<ObstaclePart>,
+    /// How many of the parts are obstacles.
+    pub obstacles: usize,
+    pub near: Vec<Proximity>,
+    /// Stiffness of the whole body on its contacts in N/m.
+    pub stiffness: f32,
+    pub cancelled: CancelReport,
+    /// Deepest overlap with another elastic body, or with itself, that is left, in metres.
+    pub pair_depth: f32,
+    /// Nothing has changed since the last step: the skin stays as it is.
+    pub settled: Option<BodyReport>,
+    /// What to remember, where the mass-spring sets are at rest.
+    pub circumstances: Option<Circumstances>,
+}
+
+impl Encounter {
+    pub fn new(handle: ElasticBodyHandle, motions: Result<Vec<Pose>, Frozen>) -> Self {
+        let (frozen, motions) = match motions {
+            Ok(motions) => (None, motions),
+            Err(frozen) => (Some(frozen), Vec::new()),
+        };
+        Self {
+            handle,
+            frozen,
+            motions,
+            region: Aabb::new_invalid(),
+            parts: Vec::new(),
+            obstacles: 0,
+            near: Vec::new(),
+            stiffness: f32::INFINITY,
+            cancelled: CancelReport::default(),
+            pair_depth: 0.0,
+            settled: None,
+            circumstances: None,
+        }
+    }
+
+    /// True where the skin has to be deformed in this step.
+    pub fn is_active(&self) -> bool {
+        self.frozen.is_none() && self.settled.is_none()
+    }
+}

@@ -1,0 +1,164 @@
+//! Elastic bodies that meet each other or themselves: impulses that push them apart, and interfaces for their skins.
+
+use std::collections::BTreeMap;
+
+use rapier3d::dynamics::RigidBodySet;
+use rayon::prelude::*;
+
+use super::deformation_world::DeformationWorld;
+use super::encounter::Encounter;
+use crate::coupling::{
+    ElasticSide, FoundationContact, Interface, Overlap, PairPoint, PartId, Proximity, SegmentPair, SegmentRef,
+    SkinSide, interface_part, pair_contacts, pairs_of,
+};
+use crate::elastic::ElasticBody;
+use crate::math::Vec3;
+
+/// Overlaps below this part of the smaller body's size are left.
+const TOLERANCE: f32 = 1.0e-3;
+
+/// The box behind an interface is deeper than the overlap by this part of the smaller segment's size.
+const MARGIN: f32 = 0.15;
+
+/// Most points at which two segments push each other.
+const MOST_POINTS: usize = 96;
+
+impl DeformationWorld {
+    /// The pairs of segments, of two bodies or of one, that come close; their bodies are indices of `encounters`.
+    pub(super) fn find_pairs(&self, encounters: &[Encounter]) -> Vec<SegmentPair> {
+        let there: Vec<usize> = (0..encounters.len()).filter(|&i| encounters[i].frozen.is_none()).collect();
+        let entries: Vec<_> = there.iter().filter_map(|&i| self.entries.get(encounters[i].handle.0)).collect();
+        if entries.len() != there.len() {
+            return Vec::new();
+        }
+        let bodies: Vec<&ElasticBody> = entries.iter().map(|entry| &entry.body).collect();
+        let mut pairs = pairs_of(&bodies, |a, b| entries[a].groups.test(entries[b].groups));
+        for pair in &mut pairs {
+            pair.a.body = there[pair.a.body];
+            pair.b.body = there[pair.b.body];
+        }
+        pairs
+    }
+
+    /// The contacts of the elastic foundation between segments whose rigid skins overlap.
+    pub(super) fn pair_foundation(
+        &self,
+        encounters: &[Encounter],
+        pairs: &[SegmentPair],
+        bodies: &RigidBodySet,
+    ) -> Vec<FoundationContact> {
+        let mut rigid: BTreeMap<usize, Vec<Vec3>> = BTreeMap::new();
+        for at in pairs.iter().flat_map(|pair| [pair.a, pair.b]) {
+            if let Some(body) = self.body_at(encounters, at.body) {
+                rigid.entry(at.body).or_insert_with(|| body.rigid_positions());
+            }
+        }
+        let contacts = |pair: &SegmentPair| {
+            let points = self.pair_points(encounters, pair, &rigid);
+            let side = |at: SegmentRef| {
+                let handle = encounters[at.body].handle;
+                let entry = self.entries.get(handle.0)?;
+                let raw = handle.into_raw_parts();
+                Some(ElasticSide::of(raw, &entry.body, &entry.ragdoll, self.settings.stiffness, bodies))
+            };
+            match (side(pair.a), side(pair.b)) {
+                (Some(a), Some(b)) if !points.is_empty() => pair_contacts([a, b], &points),
+                _ => Vec::new(),
+            }
+        };
+        pairs.par_iter().map(contacts).collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
+    fn pair_points(
+        &self,
+        encounters: &[Encounter],
+        pair: &SegmentPair,
+        rigid: &BTreeMap<usize, Vec<Vec3>>,
+    ) -> Vec<PairPoint> {
+        let rigid_body = |at: SegmentRef| {
+            let entry = self.entries.get(encounters[at.body].handle.0)?;
+            entry.ragdoll.bodies.get(at.segment).copied()
+        };
+        let (Some(a), Some(b)) = (rigid_body(pair.a), rigid_body(pair.b)) else { return Vec::new() };
+        let (Some(x), Some(y)) = (rigid.get(&pair.a.body), rigid.get(&pair.b.body)) else { return Vec::new() };
+        let Some(overlap) = self.overlap(encounters, pair, x, y) else { return Vec::new() };
+        let point = |position: Vec3, depth: f32| PairPoint { bodies: [a, b], position, normal: pair.normal, depth };
+        let first = overlap.a.iter().map(|p| point(p.position + pair.normal * (0.5 * p.depth), p.depth));
+        let second = overlap.b.iter().map(|p| point(p.position - pair.normal * (0.5 * p.depth), p.depth));
+        let all: Vec<PairPoint> = first.chain(second).collect();
+        let stride = all.len().div_ceil(MOST_POINTS).max(1);
+        all.into_iter().step_by(stride).collect()
+    }
+
+    /// Puts an interface between each two skins that overlap: a part for each of them. True for the bodies that got one.
+    pub(super) fn part_skins(&self, encounters: &mut [Encounter], pairs: &[SegmentPair], round: u32) -> Vec<bool> {
+        let mut touched = vec![false; encounters.len()];
+        for (index, (pair, overlap)) in self.skin_overlaps(encounters, pairs).into_iter().enumerate() {
+            let share = self.share(encounters, &pair);
+            let Some(interface) = Interface::of(&overlap, pair.normal, pair.along, share) else { continue };
+            for (first, at) in [(true, pair.a), (false, pair.b)] {
+                let yields = if first { share } else { 1.0 - share };
+                let Some(body) = self.body_at(encounters, at.body).filter(|_| yields > 0.0) else { continue };
+                let margin = MARGIN * body.skins()[at.segment].size;
+                let id = PartId { collider: (u32::MAX, round), part: 2 * index as u32 + u32::from(first) };
+                let Ok(part) = interface_part(&interface, first, margin, id) else { continue };
+                let normal = if first { pair.normal } else { -pair.normal };
+                let axis_point = pair.axis_points[usize::from(!first)];
+                let encounter = &mut encounters[at.body];
+                let part_index = encounter.parts.len();
+                encounter.near.push(Proximity { segment: at.segment as u16, part: part_index, normal, axis_point });
+                encounter.parts.push(part);
+                touched[at.body] = true;
+            }
+        }
+        touched
+    }
+
+    /// Notes how deep skins are still in each other.
+    pub(super) fn measure_pairs(&self, encounters: &mut [Encounter], pairs: &[SegmentPair]) {
+        for (pair, overlap) in self.skin_overlaps(encounters, pairs) {
+            for at in [pair.a, pair.b] {
+                let depth = &mut encounters[at.body].pair_depth;
+                *depth = depth.max(overlap.depth());
+            }
+        }
+    }
+
+    /// The overlaps of the skins as they are now, but for those of two bodies at rest and those that are too small.
+    fn skin_overlaps(&self, encounters: &[Encounter], pairs: &[SegmentPair]) -> Vec<(SegmentPair, Overlap)> {
+        let find = |pair: &SegmentPair| {
+            let moves = |at: SegmentRef| encounters[at.body].is_active();
+            if !moves(pair.a) && !moves(pair.b) {
+                return None;
+            }
+            let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
+            let overlap = self.overlap(encounters, pair, a.positions(), b.positions())?;
+            let size = a.rig().mesh.size().min(b.rig().mesh.size());
+            (overlap.depth() > TOLERANCE * size).then_some((*pair, overlap))
+        };
+        pairs.par_iter().map(find).collect::<Vec<_>>().into_iter().flatten().collect()
+    }
+
+    fn overlap(&self, encounters: &[Encounter], pair: &SegmentPair, x: &[Vec3], y: &[Vec3]) -> Option<Overlap> {
+        let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
+        let (triangles_a, triangles_b) = (&a.rig().mesh.triangles, &b.rig().mesh.triangles);
+        let first = SkinSide { skin: &a.skins()[pair.a.segment], triangles: triangles_a, positions: x };
+        let second = SkinSide { skin: &b.skins()[pair.b.segment], triangles: triangles_b, positions: y };
+        Some(Overlap::between(first, second, pair.normal, pair.along.unwrap_or(Vec3::ZERO)))
+    }
+
+    /// The part of an overlap by which the first skin yields: its compliance over that of both.
+    fn share(&self, encounters: &[Encounter], pair: &SegmentPair) -> f32 {
+        let compliance = |at: SegmentRef| {
+            let enabled = self.body_at(encounters, at.body).is_some_and(|body| body.settings.enabled);
+            if enabled { 1.0 / encounters[at.body].stiffness.max(f32::MIN_POSITIVE) } else { 0.0 }
+        };
+        let (a, b) = (compliance(pair.a), compliance(pair.b));
+        let share = a / (a + b);
+        if share.is_finite() { share } else { 0.5 }
+    }
+
+    fn body_at(&self, encounters: &[Encounter], index: usize) -> Option<&ElasticBody> {
+        self.entries.get(encounters[index].handle.0).map(|entry| &entry.body)
+    }
+}

@@ -1,0 +1,127 @@
+//! Elastic bodies against each other: what overlaps is parted, in proportion to the softness, and heaps come to rest.
+
+mod common;
+
+use common::ball_rig;
+use pliant::coupling::RagdollStart;
+use pliant::math::{Pose, Vec3};
+use pliant::spring::SpringCoefficients;
+use pliant::world::{DeformationWorld, ElasticBodyHandle};
+use rapier3d::dynamics::RigidBodyBuilder;
+use rapier3d::geometry::ColliderBuilder;
+use rapier3d::pipeline::PhysicsWorld;
+
+const RADIUS: f32 = 0.5;
+
+fn ball(
+    physics: &mut PhysicsWorld,
+    deformation: &mut DeformationWorld,
+    at: Vec3,
+    contact: SpringCoefficients,
+) -> ElasticBodyHandle {
+    let start = RagdollStart { pose: Pose::from_translation(at), ..RagdollStart::default() };
+    deformation.insert(ball_rig(RADIUS, 1.2, contact), &start, physics)
+}
+
+/// Two balls held at a distance: the extents along x that their skins end at, and what is left of the overlap.
+fn pressed(overlap: f32, first: f32, second: f32) -> ([f32; 2], f32, [f32; 2]) {
+    let mut physics = PhysicsWorld::new();
+    physics.gravity = Vec3::ZERO;
+    let mut deformation = DeformationWorld::new();
+    let half = RADIUS - 0.5 * overlap;
+    let a = ball(&mut physics, &mut deformation, Vec3::X * half, SpringCoefficients::new(first, 0.3));
+    let b = ball(&mut physics, &mut deformation, -Vec3::X * half, SpringCoefficients::new(second, 0.3));
+    deformation.step(&mut physics);
+    let report = deformation.report();
+    let left = [a, b].map(|h| report.body(h).expect("a report").max_pair_depth).into_iter().fold(0.0, f32::max);
+    let volumes = [a, b].map(|h| report.body(h).expect("a report").volume_ratio);
+    let lowest = deformation.get(a).expect("a").positions().iter().map(|x| x.x).fold(f32::INFINITY, f32::min);
+    let highest = deformation.get(b).expect("b").positions().iter().map(|x| x.x).fold(f32::NEG_INFINITY, f32::max);
+    ([lowest, highest], left, volumes)
+}
+
+#[test]
+fn two_balls_pressed_together_touch_in_a_plane_and_keep_their_volumes() {
+    for overlap in [0.02, 0.1, 0.2, 0.3] {
+        let ([lowest, highest], left, volumes) = pressed(overlap, 3.0, 3.0);
+        println!("{overlap}: {lowest} {highest} left {left} volumes {volumes:?}");
+        assert!(left <= 5e-3, "overlap {overlap}: {left} is left");
+        // The ends meet halfway, by symmetry, within the tolerance.
+        assert!(lowest.abs() < 5e-3 * RADIUS && highest.abs() < 5e-3 * RADIUS, "{lowest} and {highest}");
+        assert!(volumes.iter().all(|v| (v - 1.0).abs() < 2e-3), "{volumes:?}");
+    }
+}
+
+#[test]
+fn of_two_balls_the_softer_one_yields_more() {
+    // Stiffness goes with the square of the frequency: one yields four times as much as the other.
+    let overlap = 0.2;
+    let ([lowest, highest], left, _) = pressed(overlap, 2.0, 4.0);
+    println!("{lowest} {highest} {left}");
+    assert!(left <= 5e-3);
+    // The first would reach down to -0.1 and yields 0.8 of 0.2.
+    assert!((lowest - 0.06).abs() < 0.01 && (highest - 0.06).abs() < 0.01, "{lowest}, {highest}");
+}
+
+#[test]
+fn a_heap_of_twenty_soft_balls_comes_to_rest_without_being_seen_in_each_other() {
+    let mut physics = PhysicsWorld::new();
+    let fixed = physics.insert_body(RigidBodyBuilder::fixed());
+    let wall = |at: Vec3, half: Vec3| ColliderBuilder::cuboid(half.x, half.y, half.z).translation(at);
+    for (at, half) in [
+        (Vec3::new(0.0, -1.0, 0.0), Vec3::new(5.0, 1.0, 5.0)),
+        (Vec3::new(2.3, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
+        (Vec3::new(-2.3, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
+        (Vec3::new(0.0, 2.0, 2.3), Vec3::new(5.0, 3.0, 1.0)),
+        (Vec3::new(0.0, 2.0, -2.3), Vec3::new(5.0, 3.0, 1.0)),
+    ] {
+        physics.insert_collider(wall(at, half), Some(fixed));
+    }
+    let mut deformation = DeformationWorld::new();
+    let balls: Vec<_> = (0..20)
+        .map(|i| {
+            let at = Vec3::new(
+                0.55 * ((i % 2) as f32 * 2.0 - 1.0) + 0.05 * (i % 3) as f32,
+                0.6 + 1.05 * (i / 4) as f32,
+                0.55 * (((i / 2) % 2) as f32 * 2.0 - 1.0) - 0.03 * (i % 5) as f32,
+            );
+            ball(&mut physics, &mut deformation, at, SpringCoefficients::new(3.0 + (i % 4) as f32, 0.4))
+        })
+        .collect();
+    let mut worst: (f32, f32) = (0.0, 0.0);
+    let mut fastest = 0.0_f32;
+    let steps: u32 = std::env::var("STEPS").ok().and_then(|s| s.parse().ok()).unwrap_or(600);
+    for frame in 0..steps {
+        physics.step();
+        deformation.step(&mut physics);
+        if frame < 40 {
+            for ball in &balls {
+                let r = deformation.ragdoll(*ball).unwrap().bodies[0];
+                let b = &physics.bodies[r];
+                if b.linvel().length() > 6.0 || frame == 30 {
+                    println!("{frame} {:?} pos {:.2} vel {:.2}", ball, b.translation(), b.linvel());
+                }
+            }
+        }
+        for (handle, body) in &deformation.report().bodies {
+            assert!(body.frozen.is_none(), "frame {frame}: {handle:?} {body:?}");
+            if body.max_pair_depth > worst.0 {
+                println!(
+                    "frame {frame} {handle:?}: pair {} depth {} passes {}",
+                    body.max_pair_depth, body.penetration.max_depth_after, body.passes
+                );
+            }
+            worst.0 = worst.0.max(body.max_pair_depth);
+            worst.1 = worst.1.max(body.penetration.max_depth_after);
+        }
+        if frame + 60 > steps {
+            for ball in &balls {
+                let rigid = deformation.ragdoll(*ball).expect("a ragdoll").bodies[0];
+                fastest = fastest.max(physics.bodies[rigid].linvel().length());
+            }
+        }
+    }
+    println!("worst pair {} obstacle {} fastest {fastest} times {:?}", worst.0, worst.1, deformation.report().times);
+    assert!(worst.0 <= 5e-3 && worst.1 <= 1e-3, "left: {worst:?}");
+    assert!(fastest < 0.02, "{fastest} m/s in the last second");
+}
