@@ -64,7 +64,7 @@ impl Stage for Bounce {
         item.wire = self.wire.then_some([0.0, 0.0, 0.0, 0.7]);
         Frame { items: vec![item], ..Frame::default() }
     }
-    fn grab(&mut self, origin: Vec3, direction: Vec3) -> bool {
+    fn grab(&mut self, origin: Vec3, direction: Vec3, _other: bool) -> bool {
         let to = self.now.0 - origin;
         let along = to.dot(direction);
         let hit = (to - direction * along).length() < Self::RADIUS;

@@ -26,7 +26,8 @@ fn deformation(body: &ElasticBody) -> f32 {
 #[test]
 fn every_scene_runs_without_a_frozen_body_and_stays_in_its_place() {
     let names = scene_names();
-    for name in ["ball", "tower", "ring", "draggers", "heap", "press", "funnel", "corners", "wires", "spikes"] {
+    for name in ["ball", "tower", "ring", "draggers", "heap", "press", "funnel", "corners", "wires", "spikes", "crates"]
+    {
         assert!(names.iter().any(|n| n == name), "{name} is missing");
     }
     for name in names {

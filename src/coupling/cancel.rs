@@ -46,7 +46,7 @@ impl Default for CancelSettings {
             softness: None,
             depth_tolerance: 5.0e-4,
             gap_tolerance: 2.0e-3,
-            max_passes: 8,
+            max_passes: 12,
             max_rounds: 6,
             max_steps: 64,
             placement: Placement::Hugging,

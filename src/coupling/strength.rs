@@ -4,7 +4,7 @@ use rapier3d::parry::bounding_volume::BoundingVolume;
 
 use super::cancel::CancelSettings;
 use super::contact::Proximity;
-use super::gauge::gauge_point;
+use super::gauge::{gauge_point, spread_between};
 use super::magnitude::complementarity;
 use super::obstacle::ObstaclePart;
 use super::penetrations::Contact;
@@ -26,22 +26,31 @@ pub(super) fn solve_pass(
     let n = contacts.len();
     let mut pass = CollisionPass { fields: place_fields(body, parts, near, contacts, softness), steps: 1 };
     let mut strength: Vec<f32> = contacts.iter().map(Contact::depth).collect();
-    // Aim a little outside: what the solve leaves open then does not end inside.
-    let aim = 0.5 * settings.depth_tolerance * size;
+    // Aim a little outside: what the solve leaves open then does not end inside. Where contacts push against each other
+    // only a stride of the way is gone at once.
+    let part = stride(contacts, size);
+    let aim: Vec<f32> =
+        contacts.iter().map(|contact| 0.5 * settings.depth_tolerance * size - (1.0 - part) * contact.depth()).collect();
+    strength.iter_mut().for_each(|strength| *strength *= part);
     let gap_tolerance = settings.gap_tolerance * size;
+    let slack = 0.5 * settings.depth_tolerance * size;
     let mut probes = Probes::new(contacts);
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
         let outcome = probes.outcomes(body, &pass, contacts, parts);
-        let open = outcome.iter().zip(&strength).any(|(o, &s)| o.gap < 0.0 || (o.gap > gap_tolerance && s > 0.0));
-        if !open && !probes.extend(body, &pass, contacts, parts, settings.depth_tolerance * size) {
+        let open = outcome
+            .iter()
+            .zip(&strength)
+            .zip(&aim)
+            .any(|((o, &s), aim)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > 0.0));
+        if !open && (part < 1.0 || !probes.extend(body, &pass, contacts, parts, settings.depth_tolerance * size)) {
             break;
         }
         let matrix = influence(body, &pass, contacts, &outcome, &strength);
         let wanted: Vec<f32> = (0..n)
             .map(|i| {
                 let row = &matrix[i * n..(i + 1) * n];
-                row.iter().zip(&strength).map(|(a, s)| a * s).sum::<f32>() + aim - outcome[i].gap
+                row.iter().zip(&strength).map(|(a, s)| a * s).sum::<f32>() + aim[i] - outcome[i].gap
             })
             .collect();
         complementarity(&matrix, &wanted, &mut strength);
@@ -53,6 +62,23 @@ pub(super) fn solve_pass(
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     pass
 }
+
+/// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
+/// one of them then flows towards the next, and the strengths are right for a short way only.
+fn stride(contacts: &[Contact], size: f32) -> f32 {
+    let against = |a: &Contact| contacts.iter().any(|b| a.near.normal.dot(b.near.normal) < AGAINST_EACH_OTHER);
+    if contacts.len() < 3 || !contacts.iter().any(against) {
+        return 1.0;
+    }
+    let deepest = contacts.iter().map(Contact::depth).fold(0.0, f32::max);
+    (STRIDE * size / deepest.max(f32::MIN_POSITIVE)).min(1.0)
+}
+
+/// Contacts push against each other below this cosine of the angle between their directions.
+const AGAINST_EACH_OTHER: f32 = -0.3;
+
+/// What is gone in one pass against others, in sizes of the body.
+const STRIDE: f32 = 0.12;
 
 /// A field is at most this many times as strong as its contact is deep: more would mean that it works against others,
 /// and the next pass, with new contacts, does better.
@@ -71,9 +97,12 @@ fn place_fields(
     softness: f32,
 ) -> Vec<SegmentField> {
     let field = |(j, contact): (usize, &Contact)| {
-        let others =
-            contacts.iter().enumerate().filter(|&(i, _)| i != j).map(|(_, other)| (other.centre, other.near.normal));
-        let gauge = gauge_point(contact.centre, others);
+        let others = || {
+            let others = contacts.iter().enumerate().filter(|&(i, _)| i != j);
+            others.map(|(_, other)| (other.centre, other.near.normal))
+        };
+        let gauge = gauge_point(contact.centre, others());
+        let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
         let patch = Patch { centre: contact.centre, radius: contact.radius, width };
@@ -84,6 +113,7 @@ fn place_fields(
                 d: Vec3::ZERO,
                 gauge,
                 width,
+                spread,
                 patch,
                 extent: reach_of(body, gauge),
             }),

@@ -45,6 +45,8 @@ pub fn obstacles_near(
             && collider.collision_groups().test(groups)
             && !collider.parent().is_some_and(own)
     };
+    // No thickness at all, or one that is no number, is as good as none.
+    let thickness = if thickness.is_finite() { thickness.max(0.0) } else { 0.0 };
     // What went through a surface is behind the box around it, but not farther than the surface is thick.
     let wide = region.loosened(thickness);
     let mut handles: Vec<(ColliderHandle, &Collider)> =

@@ -34,6 +34,30 @@ impl Patch {
     }
 }
 
+/// Which way the material beside a contact gives way: all ways across the displacement alike, or rather along one of them.
+///
+/// The potential `A = φ (d × B b)` is as good as `φ (d × b)` for every symmetric `B` with `B d = 0` and trace 2: its curl is
+/// field (F) with `B b` in the place of `b`. With `B b = (1 − s) b + 2 s e (e · b)` for a unit vector `e` across `d` the
+/// material flows along `e` alone where `s = 1`, as between walls that leave no other way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// Unit vector `e` across the displacement.
+    pub along: Vec3,
+    /// `s` from 0, all ways alike, to 1, along `e` alone.
+    pub share: f32,
+}
+
+impl Spread {
+    /// All ways alike.
+    pub const EVEN: Self = Self { along: Vec3::ZERO, share: 0.0 };
+
+    /// `B b`.
+    #[inline]
+    pub fn apply(&self, b: Vec3) -> Vec3 {
+        b * (1.0 - self.share) + self.along * (2.0 * self.share * self.along.dot(b))
+    }
+}
+
 /// Carries everything that lies before a convex part, shifted back by `d`, out of the part's true place.
 ///
 /// The part moves rigidly from its place minus `d` to its place while `t` runs from 0 to 1, and lies in the region of
@@ -49,6 +73,8 @@ pub struct HuggingField {
     pub gauge: Vec3,
     /// Fade-out width `W = s · size`, positive.
     pub width: f32,
+    /// Which way the material gives way; `along` is across `d`.
+    pub spread: Spread,
     /// Where on the part the contact is.
     pub patch: Patch,
     /// Largest distance of the body from the gauge point: it enters the Lipschitz bound only.
@@ -70,7 +96,7 @@ impl HuggingField {
         }
         let (phi, dphi) = CollisionKernel::weight(distance, self.width);
         let slope = direction * (2.0 * patch * dphi) + patch_slope * (2.0 * phi);
-        curl_of_weighted_rotation(2.0 * patch * phi, slope, self.d, x - self.gauge)
+        curl_of_weighted_rotation(2.0 * patch * phi, slope, self.d, self.spread.apply(x - self.gauge))
     }
 
     /// True where the field may move the point `x`, should nothing else move it.
@@ -88,7 +114,8 @@ impl HuggingField {
 
 impl Lipschitz for HuggingField {
     /// [`collision_bound`] with the slope and the curvature of a product of weights:
-    /// `|∇φ| ≤ S (1/W + 1/V)`, `|∇∇φ| ≤ C (1/W² + 1/V²) + 4 S² / (W V)` for the widths `W` and `V`.
+    /// `|∇φ| ≤ S (1/W + 1/V)`, `|∇∇φ| ≤ C (1/W² + 1/V²) + 4 S² / (W V)` for the widths `W` and `V`. A spread `B` with the
+    /// norm `1 + s` multiplies all that `b` takes part in.
     fn lipschitz(&self) -> f32 {
         let (across, along) =
             (1.0 / self.width, if self.patch.radius.is_finite() { 1.0 / self.patch.width } else { 0.0 });
@@ -96,7 +123,8 @@ impl Lipschitz for HuggingField {
         let curvature = CollisionKernel::MAX_CURVATURE * (across * across + along * along)
             + 4.0 * CollisionKernel::MAX_SLOPE * CollisionKernel::MAX_SLOPE * across * along;
         let patch = self.patch.radius + self.patch.width + self.patch.centre.distance(self.gauge) + self.d.length();
-        self.d.length() * (4.0 * slope + 2.0 * curvature * self.extent.min(patch))
+        let spread = 1.0 + self.spread.share;
+        self.d.length() * (2.0 * slope * (1.0 + spread) + 2.0 * spread * curvature * self.extent.min(patch))
     }
 }
 

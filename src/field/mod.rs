@@ -18,7 +18,7 @@ mod wide;
 pub use certificate::{Lipschitz, certified_steps, usual_steps};
 pub use convex_hull::{ConvexHull, HullError};
 pub use curl::curl_of_weighted_rotation;
-pub use hugging::{HuggingField, Patch};
+pub use hugging::{HuggingField, Patch, Spread};
 pub use kernel::{CollisionKernel, SpringKernel};
 pub use part::{ConvexPart, PartShape, PlacedPart};
 pub use path_line::{Integrator, path_line};

@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Sub};
 use wide::f32x8;
 
 use super::convex_hull::ConvexHull;
-use super::hugging::HuggingField;
+use super::hugging::{HuggingField, Spread};
 use super::part::PartShape;
 use super::spring::SpringField;
 use crate::math::Vec3;
@@ -137,11 +137,25 @@ impl HuggingField {
         let grad = away.scaled(slope * patch.0 / length.max(f32x8::splat(f32::MIN_POSITIVE)));
         // The products with the slope towards the part are taken in the part's frame, where it was found.
         let d = frame * self.d;
-        let b = local - WideVec::splat(frame * (offset + self.gauge));
-        let from_gauge = x - WideVec::splat(self.gauge);
+        let from_gauge = self.spread_wide(x - WideVec::splat(self.gauge));
+        let b = WideVec {
+            x: from_gauge.dot_all(frame.row(0)),
+            y: from_gauge.dot_all(frame.row(1)),
+            z: from_gauge.dot_all(frame.row(2)),
+        };
         let patch_grad = patch.1.scaled(k * k);
         let along = k * k * patch.0 + grad.dot(b) + patch_grad.dot(from_gauge);
         WideVec::splat(self.d).scaled(along) - from_gauge.scaled(grad.dot_all(d) + patch_grad.dot_all(self.d))
+    }
+
+    #[inline]
+    fn spread_wide(&self, b: WideVec) -> WideVec {
+        let Spread { along, share } = self.spread;
+        if share == 0.0 {
+            return b;
+        }
+        let even = f32x8::splat(1.0 - share);
+        b.scaled(even) + WideVec::splat(along).scaled(b.dot_all(along) * f32x8::splat(2.0 * share))
     }
 
     /// `k²` of the patch, and its slope over two.

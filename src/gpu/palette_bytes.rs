@@ -6,7 +6,7 @@
 //! springs     p, r_o | q
 //! drags       p, r_o | q | segments
 //! passes      first field, count, steps
-//! collisions  kind, first share, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape | patch, its width
+//! collisions  kind, first share, shape | d, width | gauge or centre, rounding or inner | rotation | translation | shape | patch, its width | spread
 //! shares      of four segments a row                                 none where all skin takes all
 //! triangles   plane | corner | corner | corner                          of each convex hull in use, once
 //! ```
@@ -25,7 +25,7 @@ pub(super) const HEADER: u32 = 3;
 pub(super) const SEGMENT: u32 = 4;
 pub(super) const SPRING: u32 = 2;
 pub(super) const DRAG: u32 = 3;
-pub(super) const COLLISION: u32 = 8;
+pub(super) const COLLISION: u32 = 9;
 pub(super) const TRIANGLE: u32 = 4;
 
 /// Integration rules; anything else is the Runge-Kutta rule.
@@ -162,6 +162,7 @@ fn collision_rows<'a>(
                 one,
                 two,
                 real(field.patch.centre - origin, field.patch.radius.min(f32::MAX)),
+                real(field.spread.along, field.spread.share),
             ]
         }
     }

@@ -23,6 +23,15 @@ const MARGIN: f32 = 0.15;
 /// Most points at which two segments push each other.
 const MOST_POINTS: usize = 96;
 
+/// An interface, and the index of its part among those of each of the two bodies.
+pub(super) struct PlacedInterface {
+    interface: Interface,
+    parts: [Option<usize>; 2],
+}
+
+/// The interfaces of a step.
+pub(super) type Interfaces = BTreeMap<(SegmentRef, SegmentRef), PlacedInterface>;
+
 impl DeformationWorld {
     /// The pairs of segments, of two bodies or of one, that come close; their bodies are indices of `encounters`.
     pub(super) fn find_pairs(&self, encounters: &[Encounter]) -> Vec<SegmentPair> {
@@ -90,26 +99,51 @@ impl DeformationWorld {
         all.into_iter().step_by(stride).collect()
     }
 
-    /// Puts an interface between each two skins that overlap: a part for each of them. True for the bodies that got one.
-    pub(super) fn part_skins(&self, encounters: &mut [Encounter], pairs: &[SegmentPair], round: u32) -> Vec<bool> {
+    /// Puts an interface between each two skins that overlap: a part for each of them. True for the bodies whose parts
+    /// changed.
+    ///
+    /// The plane of a pair is found once a step; where skins bulge into each other beside it, it only grows.
+    pub(super) fn part_skins(
+        &self,
+        encounters: &mut [Encounter],
+        pairs: &[SegmentPair],
+        interfaces: &mut Interfaces,
+    ) -> Vec<bool> {
         let mut touched = vec![false; encounters.len()];
-        for (index, (pair, overlap)) in self.skin_overlaps(encounters, pairs).into_iter().enumerate() {
+        for (pair, overlap) in self.skin_overlaps(encounters, pairs) {
             let share = self.share(encounters, &pair);
-            let Some(interface) = Interface::of(&overlap, pair.normal, pair.along, share) else { continue };
-            for (first, at) in [(true, pair.a), (false, pair.b)] {
+            let known = interfaces.get(&(pair.a, pair.b));
+            let interface = match known {
+                Some(known) => Some(known.interface.widened(&overlap)),
+                None => Interface::of(&overlap, pair.normal, pair.along, share),
+            };
+            let Some(interface) = interface else { continue };
+            let mut placed = PlacedInterface { interface, parts: known.map_or([None; 2], |known| known.parts) };
+            let index = interfaces.len() as u32;
+            for (side, at) in [pair.a, pair.b].into_iter().enumerate() {
+                let first = side == 0;
                 let yields = if first { share } else { 1.0 - share };
                 let Some(body) = self.body_at(encounters, at.body).filter(|_| yields > 0.0) else { continue };
                 let margin = MARGIN * body.skins()[at.segment].size;
-                let id = PartId { collider: (u32::MAX, round), part: 2 * index as u32 + u32::from(first) };
-                let Ok(part) = interface_part(&interface, first, margin, id) else { continue };
-                let normal = if first { pair.normal } else { -pair.normal };
-                let axis_point = pair.axis_points[usize::from(!first)];
                 let encounter = &mut encounters[at.body];
-                let part_index = encounter.parts.len();
-                encounter.near.push(Proximity { segment: at.segment as u16, part: part_index, normal, axis_point });
-                encounter.parts.push(part);
+                let id = placed.parts[side]
+                    .map_or(PartId { collider: (u32::MAX, u32::MAX), part: 2 * index + side as u32 }, |part: usize| {
+                        encounter.parts[part].id
+                    });
+                let Ok(part) = interface_part(&interface, first, margin, id) else { continue };
                 touched[at.body] = true;
+                if let Some(place) = placed.parts[side] {
+                    encounter.parts[place] = part;
+                    continue;
+                }
+                let place = encounter.parts.len();
+                let normal = if first { interface.frame.z_axis } else { -interface.frame.z_axis };
+                let axis_point = pair.axis_points[side];
+                encounter.near.push(Proximity { segment: at.segment as u16, part: place, normal, axis_point });
+                encounter.parts.push(part);
+                placed.parts[side] = Some(place);
             }
+            interfaces.insert((pair.a, pair.b), placed);
         }
         touched
     }

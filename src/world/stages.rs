@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::deformation_world::{DeformationWorld, ElasticBodyHandle, Entry, Settled};
 use super::encounter::Encounter;
+use super::meetings::Interfaces;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
@@ -133,8 +134,9 @@ impl DeformationWorld {
             self.active(encounters).into_par_iter().for_each(|(entry, _)| entry.coherence.begin(&entry.body));
         }
         let mut pairs = pairs.to_vec();
+        let mut interfaces = Interfaces::new();
         for round in 0..=PAIR_ROUNDS {
-            let touched = self.part_skins(encounters, &pairs, round);
+            let touched = self.part_skins(encounters, &pairs, &mut interfaces);
             if round > 0 && !touched.contains(&true) {
                 break;
             }

@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 use pliant::field::{
-    ConvexPart, HuggingField, Integrator, Lipschitz, PartShape, Patch, PlacedPart, certified_steps, path_line,
+    ConvexPart, HuggingField, Integrator, Lipschitz, PartShape, Patch, PlacedPart, Spread, certified_steps, path_line,
 };
 use pliant::math::{Pose, Vec3};
 
@@ -63,8 +63,15 @@ fn pressed(depth: f32, width: f32) -> (f32, f32, f64) {
     let part = ConvexPart { shape: PartShape::HalfSpace { normal: Vec3::Y }, rounding: 0.0 };
     let part = PlacedPart::new(part, Pose::from_translation(Vec3::Y * top));
     // The gauge point lies on the exit face, over the depth-weighted mean of the vertices in the floor.
-    let field =
-        HuggingField { part, d: Vec3::Y * depth, gauge: Vec3::Y * top, width, patch: Patch::EVERYWHERE, extent: 2.0 };
+    let field = HuggingField {
+        part,
+        d: Vec3::Y * depth,
+        gauge: Vec3::Y * top,
+        width,
+        spread: Spread::EVEN,
+        patch: Patch::EVERYWHERE,
+        extent: 2.0,
+    };
     let moved: Vec<Vec3> =
         points.iter().map(|&x| path_line(x, Integrator::Midpoint, 12, |x, t| field.velocity(x, t))).collect();
     let lowest = moved.iter().map(|x| x.y).fold(f32::INFINITY, f32::min);

@@ -1,7 +1,9 @@
 //! Random fields with a sampler of points in their reach, as boxed functions: one list for all properties.
 
 use fastrand::Rng;
-use pliant::field::{ConvexPart, HuggingField, Lipschitz, PartShape, Patch, PlacedPart, SphereField, SpringField};
+use pliant::field::{
+    ConvexPart, HuggingField, Lipschitz, PartShape, Patch, PlacedPart, SphereField, Spread, SpringField,
+};
 use pliant::math::Vec3;
 
 use crate::random::{SHAPES, between, direction, in_cube, part, pose};
@@ -84,14 +86,17 @@ pub fn hugging_field(rng: &mut Rng, kind: usize) -> HuggingField {
     let part = PlacedPart::new(part(rng, kind), pose(rng, 1.0));
     let width = between(rng, 0.7, 2.0);
     let gauge = part.pose().translation + in_cube(rng, 0.7);
-    HuggingField {
-        part,
-        d: direction(rng) * between(rng, 0.1, 1.0),
-        gauge,
-        width,
-        patch: patch(rng, gauge),
-        extent: 1.5,
+    let d = direction(rng) * between(rng, 0.1, 1.0);
+    HuggingField { part, d, gauge, width, spread: spread(rng, d), patch: patch(rng, gauge), extent: 1.5 }
+}
+
+/// Every second one is even.
+pub fn spread(rng: &mut Rng, d: Vec3) -> Spread {
+    if rng.bool() {
+        return Spread::EVEN;
     }
+    let along = (d.cross(direction(rng))).normalize();
+    Spread { along, share: rng.f32() }
 }
 
 /// Every second one is everywhere.

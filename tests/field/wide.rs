@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::samples::patch;
+use crate::samples::{patch, spread};
 use pliant::field::{ConvexHull, ConvexPart, HuggingField, LANES, PartShape, PlacedPart, SpringField, WideVec};
 use pliant::math::{Pose, Vec3};
 
@@ -31,9 +31,11 @@ fn eight_points_in_a_collision_field_of_any_shape_move_as_each_alone() {
             let turn = random(&mut rng, 1.5);
             let pose = Pose::new(random(&mut rng, 1.0), turn);
             let gauge = random(&mut rng, 1.0);
+            let d = random(&mut rng, 0.2);
             let field = HuggingField {
                 part: PlacedPart::new(ConvexPart { shape: shape.clone(), rounding }, pose),
-                d: random(&mut rng, 0.2),
+                d,
+                spread: spread(&mut rng, d),
                 gauge,
                 width: 0.8,
                 patch: patch(&mut rng, gauge),

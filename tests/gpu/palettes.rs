@@ -4,7 +4,9 @@ use fastrand::Rng;
 use pliant::elastic::{
     CollisionField, CollisionPass, DragField, DragStage, Palette, SegmentEntry, SegmentField, SkinWeights, SpringStage,
 };
-use pliant::field::{ConvexPart, HuggingField, Integrator, PartShape, Patch, PlacedPart, SphereField, SpringField};
+use pliant::field::{
+    ConvexPart, HuggingField, Integrator, PartShape, Patch, PlacedPart, SphereField, Spread, SpringField,
+};
 use pliant::math::{Pose, Quat, Vec3};
 
 use crate::icosphere::icosphere;
@@ -61,6 +63,10 @@ fn press(rng: &mut Rng, kind: usize, middle: Vec3) -> HuggingField {
         d: -outward * between(rng, 0.1, 0.4),
         gauge: contact,
         width: between(rng, 0.8, 2.0),
+        spread: match rng.bool() {
+            true => Spread::EVEN,
+            false => Spread { along: outward.any_orthonormal_vector(), share: rng.f32() },
+        },
         patch: match rng.bool() {
             true => Patch::EVERYWHERE,
             false => Patch { centre: contact, radius: between(rng, 0.0, 0.4), width: between(rng, 0.4, 1.0) },

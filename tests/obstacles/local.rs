@@ -156,3 +156,15 @@ fn a_stand_in_takes_the_place_of_a_collider_until_it_is_removed() {
     cache.stand_in(handle, None);
     assert_eq!(count(&mut cache), 1);
 }
+
+#[test]
+fn obstacles_without_anything_to_touch_are_refused() {
+    let empty = SharedShape::voxels(Vec3::ONE, &[]);
+    let flat = SharedShape::trimesh(vec![Vec3::ZERO, Vec3::X, Vec3::X * 2.0], vec![[0, 1, 2]]).expect("a mesh");
+    let infinite = SharedShape::heightfield(Array2::new(2, 2, vec![0.0, f32::NAN, 0.0, 0.0]), Vec3::ONE);
+    let narrow = SharedShape::heightfield(Array2::repeat(2, 2, 0.0), Vec3::new(0.0, 1.0, 1.0));
+    let point = SharedShape::triangle(Vec3::ONE, Vec3::ONE, Vec3::ONE);
+    for shape in [empty, flat, infinite, narrow, point] {
+        assert!(PartSource::new(&shape).is_err(), "{:?}", shape.shape_type());
+    }
+}

@@ -50,7 +50,8 @@ mod tests {
 
     #[test]
     fn the_toys_are_closed_pieces_of_even_triangles_that_face_outward() {
-        for (toy, volume) in [(die(), 0.42), (bean(), 0.24)] {
+        // A cube of 0.8 m without its edges and dents; a round tube of 0.23 m, 0.9 m along its bend, with round ends.
+        for (toy, volume) in [(die(), 0.42), (bean(), 0.21)] {
             assert!(toy.is_closed() && toy.component_count() == 1 && toy.euler_characteristic() == 2);
             assert!((toy.volume() / volume - 1.0).abs() < 0.1, "{}", toy.volume());
             assert!(toy.triangles.len().abs_diff(TRIANGLES) <= 80, "{}", toy.triangles.len());

@@ -100,6 +100,69 @@ fn keys(at: &At, raw: &[[f32; 4]]) -> Result<Vec<(f32, Vec3)>, TomlError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Scene, load_scene};
+    use std::fs;
+
+    /// Lines are counted in the table below.
+    const GOOD: &str = r#"name = "hands"
+duration = 1.0
+camera = { eye = [0, 2, 8], target = [0, 1, 0] }
+[[body]]
+name = "head"
+rig = "scene.toml"
+[[dragger]]
+body = "head"
+pulls = "body"
+frequency = 2.0
+steady = true
+keys = [[0, 0, 1, 0], [2, 1, 1, 0]]
+[[dragger]]
+body = "head"
+pulls = "skin"
+point = [0.4, 0, 0]
+radius = 0.3
+keys = [[0.5, 0, 0, 0], [1, 0.5, 0, 0]]
+"#;
+
+    fn load(text: &str) -> Result<Scene, TomlError> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("scene.toml");
+        fs::write(&path, text).unwrap();
+        load_scene(path)
+    }
+
+    #[test]
+    fn both_kinds_of_draggers_are_read() {
+        let draggers = load(GOOD).unwrap().draggers;
+        assert_eq!(draggers[0].pulls, Pulls::Body { frequency: 2.0, steady: true });
+        assert_eq!((draggers[1].pulls, draggers[1].point), (Pulls::Skin { radius: 0.3 }, Vec3::X * 0.4));
+        assert_eq!(draggers[1].keys, [(0.5, Vec3::ZERO), (1.0, Vec3::X * 0.5)]);
+    }
+
+    #[test]
+    fn bad_draggers_are_refused_with_their_line_and_a_hint() {
+        let table: &[(&str, &str, usize, &str)] = &[
+            ("frequency = 2.0", "frequenzy = 2.0", 10, "did you mean `frequency`?"),
+            ("frequency = 2.0", "frequency = 0", 10, "dragger 0: `frequency` must be above 0"),
+            ("frequency = 2.0", "radius = 2.0", 10, "`radius` is no key where a body is pulled"),
+            ("body = \"head\"\npulls = \"body\"", "body = \"haed\"\npulls = \"body\"", 8, "did you mean `head`?"),
+            ("pulls = \"body\"", "pulls = \"bodies\"", 9, "must be `body` or `skin`"),
+            ("[[0, 0, 1, 0], [2, 1, 1, 0]]", "[[0, 0, 1, 0]]", 12, "at least two"),
+            ("[2, 1, 1, 0]", "[0, 1, 1, 0]", 12, "times that rise"),
+            ("[2, 1, 1, 0]", "[2, nan, 1, 0]", 12, "finite"),
+            ("[2, 1, 1, 0]", "[-2, 1, 1, 0]", 12, "from 0 to"),
+            ("point = [0.4, 0, 0]", "point = [inf, 0, 0]", 16, "dragger 1: `point`"),
+            ("radius = 0.3", "radius = -0.3", 17, "`radius`"),
+            ("radius = 0.3", "", 13, "`radius` is missing"),
+            ("radius = 0.3", "radius = 0.3\nsteady = true", 18, "`steady` is no key where skin is pulled"),
+            ("radius = 0.3", "radius = 0.3\nfrequency = 1", 18, "`frequency` is no key where skin is pulled"),
+        ];
+        for (from, to, line, words) in table {
+            assert!(GOOD.contains(from), "{from}");
+            let message = load(&GOOD.replacen(from, to, 1)).map(drop).expect_err(to).to_string();
+            assert!(message.contains(&format!("scene.toml:{line}: ")) && message.contains(words), "{to}: {message}");
+        }
+    }
 
     #[test]
     fn the_goal_passes_the_keys_and_stands_still_there() {

@@ -51,7 +51,6 @@ pub fn ring_surface(radius: f32, thickness: f32) -> (Vec<Vec3>, Vec<Vec3>, Vec<[
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rapier3d::parry::query::PointQuery;
 
     #[test]
     fn the_opening_of_the_ring_is_as_wide_as_it_says_and_the_bar_as_thick() {

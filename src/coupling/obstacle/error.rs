@@ -13,8 +13,8 @@ pub enum ObstacleError {
     /// A mesh that VHACD finds no part of.
     #[error("no convex part came out of the mesh: it is empty, too flat, or its size is not between 1 mm and 100 km")]
     NoParts,
-    /// A mesh or heightfield whose triangles have no area, or whose corners are not finite.
-    #[error("a {0:?} collider has no triangle with an area")]
+    /// A mesh or heightfield whose triangles have no area, or whose corners are not finite; voxels of which none is filled.
+    #[error("a {0:?} collider has nothing to touch: no finite triangle with an area, no filled voxel")]
     NoArea(ShapeType),
     /// A hull without a volume.
     #[error(transparent)]

@@ -36,7 +36,8 @@ const PARALLEL: f32 = 0.9999;
 ///
 /// `tolerance` is the distance in metres within which points count as lying in one plane, or on one line.
 pub(super) fn flat_faces(points: &[Vec3], triangles: &[[u32; 3]], tolerance: f32) -> Vec<Face> {
-    let mut growing = Growing { points, tolerance, faces: Vec::new(), owner: HashMap::new() };
+    let mut growing =
+        Growing { points, tolerance, faces: Vec::new(), owner: HashMap::with_capacity(3 * triangles.len()) };
     for (triangle, corners) in triangles.iter().enumerate() {
         let [a, b, c] = corners.map(|i| points[i as usize]);
         let cross = (b - a).cross(c - a);
@@ -53,7 +54,8 @@ pub(super) fn flat_faces(points: &[Vec3], triangles: &[[u32; 3]], tolerance: f32
         growing.faces.push(Some(face));
     }
     let mut most_corners = FEW_CORNERS;
-    while growing.round(most_corners) || most_corners < MOST_CORNERS {
+    let mut open: Vec<usize> = (0..growing.faces.len()).filter(|&index| growing.may_grow(index)).collect();
+    while growing.round(&mut open, most_corners) || most_corners < MOST_CORNERS {
         most_corners = (2 * most_corners).min(MOST_CORNERS);
     }
     let neighbours: Vec<Vec<Option<Vec3>>> = growing.faces.iter().flatten().map(|f| growing.neighbours(f)).collect();
@@ -68,7 +70,7 @@ struct Growing<'a> {
     points: &'a [Vec3],
     tolerance: f32,
     faces: Vec<Option<Face>>,
-    /// The face of each directed edge; none where several faces claim it.
+    /// The face of each directed edge; where several faces claim it, the last.
     owner: HashMap<[u32; 2], usize>,
 }
 
@@ -79,10 +81,10 @@ impl Growing<'_> {
         }
     }
 
-    /// Lets every face grow as far as it can. False where none did.
-    fn round(&mut self, most_corners: usize) -> bool {
+    /// Lets each of the `open` faces grow as far as it can. False where none did. What is absorbed is open no more.
+    fn round(&mut self, open: &mut Vec<usize>, most_corners: usize) -> bool {
         let mut grown = false;
-        for index in 0..self.faces.len() {
+        for &index in open.iter() {
             while let Some((other, corners)) = self.next_neighbour(index, most_corners) {
                 let Some(absorbed) = self.faces[other].take() else { break };
                 let Some(face) = &mut self.faces[index] else { break };
@@ -96,7 +98,28 @@ impl Growing<'_> {
                 grown = true;
             }
         }
+        open.retain(|&index| self.faces[index].is_some());
         grown
+    }
+
+    /// True where a neighbour lies in the plane of a face. Most faces of a round mesh have none, and never will.
+    fn may_grow(&self, index: usize) -> bool {
+        let Some(face) = &self.faces[index] else { return false };
+        let mut edges = (0..face.corners.len()).map(|i| [face.corners[(i + 1) % face.corners.len()], face.corners[i]]);
+        edges.any(|edge| {
+            let other = self.owner.get(&edge).filter(|&&other| other != index);
+            other.and_then(|&other| self.faces[other].as_ref()).is_some_and(|other| self.lie_in_one_plane(face, other))
+        })
+    }
+
+    fn lie_in_one_plane(&self, face: &Face, other: &Face) -> bool {
+        if face.normal.dot(other.normal) < PARALLEL {
+            return false;
+        }
+        let (larger, smaller) = if face.area >= other.area { (face, other) } else { (other, face) };
+        let origin = self.points[larger.corners[0] as usize];
+        let height = |&i: &u32| (self.points[i as usize] - origin).dot(larger.normal).abs();
+        smaller.corners.iter().all(|corner| height(corner) <= self.tolerance)
     }
 
     /// The normals beyond the edges of a face.
@@ -128,22 +151,17 @@ impl Growing<'_> {
     }
 
     fn joined(&self, face: &Face, other: &Face, most_corners: usize) -> Option<Vec<u32>> {
-        if face.normal.dot(other.normal) < PARALLEL {
+        if !self.lie_in_one_plane(face, other) {
             return None;
         }
-        let (larger, smaller) = if face.area >= other.area { (face, other) } else { (other, face) };
-        let origin = self.points[larger.corners[0] as usize];
-        let off_plane = |&i: &u32| (self.points[i as usize] - origin).dot(larger.normal).abs() > self.tolerance;
-        if smaller.corners.iter().any(off_plane) {
-            return None;
-        }
+        let normal = if face.area >= other.area { face.normal } else { other.normal };
         let corners = outline(&face.corners, &other.corners).filter(|corners| corners.len() <= most_corners)?;
         let convex = (0..corners.len()).all(|i| {
             let [before, at, after] =
                 [i + corners.len() - 1, i, i + 1].map(|k| self.points[corners[k % corners.len()] as usize]);
             // Twice the area of the corner's triangle, over its base: how far the corner is dented in.
             let base = (after - before).length().max(f32::MIN_POSITIVE);
-            (at - before).cross(after - at).dot(larger.normal) / base >= -self.tolerance
+            (at - before).cross(after - at).dot(normal) / base >= -self.tolerance
         });
         convex.then_some(corners)
     }

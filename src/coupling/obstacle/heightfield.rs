@@ -63,7 +63,8 @@ impl HeightFieldPieces {
     pub fn new(field: &HeightField) -> Result<Self, ObstacleError> {
         let error = ObstacleError::NoArea(ShapeType::HeightField);
         let scale = field.scale();
-        let finite = field.root_aabb().mins.is_finite() && field.root_aabb().maxs.is_finite();
+        let row_is_finite = |row: usize| (0..=field.ncols()).all(|column| field.heights()[(row, column)].is_finite());
+        let finite = scale.is_finite() && (0..=field.nrows()).all(row_is_finite);
         if !finite || scale.x.abs() <= 0.0 || scale.z.abs() <= 0.0 {
             return Err(error);
         }
@@ -129,6 +130,18 @@ impl HeightFieldPieces {
         [(low, left), (high, left), (low, right), (high, right)].map(|(row, column)| self.corner(row, column))
     }
 
+    /// The ways in which a square ends at the rim of the field.
+    fn rim(&self, square: Square) -> Vec<Vec3> {
+        let [first, .., last] = self.corners(square);
+        let rim = self.field.root_aabb();
+        let at_rim = |side: &Vec3| {
+            let corner = if side.element_sum() < 0.0 { first.min(last) } else { first.max(last) };
+            let border = if side.element_sum() < 0.0 { rim.mins } else { rim.maxs };
+            ((corner - border) * side.abs()).abs().max_element() <= self.tolerance()
+        };
+        SIDES.into_iter().filter(at_rim).collect()
+    }
+
     fn is_flat(&self, [a, b, c, d]: [Vec3; 4]) -> bool {
         (a.y + d.y - b.y - c.y).abs() <= self.tolerance()
     }
@@ -174,7 +187,8 @@ impl HeightFieldPieces {
         }
         let first = (square.row << square.level) + (square.column << square.level) * self.field.nrows();
         let number = 2 * first as u32;
-        let block = |number: u32, top: &[Vec3]| Some((number, block(top, thickness)?));
+        let rim = self.rim(square);
+        let block = |number: u32, top: &[Vec3]| Some((number, block(top, thickness, &rim)?));
         if self.levels[square.level].node(square.row, square.column).flat {
             return block(number, &self.corners(square)).into_iter().collect();
         }
@@ -196,18 +210,24 @@ fn children(row: usize, column: usize, below: [usize; 2]) -> impl Iterator<Item 
     rows.flat_map(move |row| (2 * column..(2 * column + 2).min(below[1])).map(move |column| (row, column)))
 }
 
-/// The solid between a flat top and a level bottom, `thickness` below the lowest corner of the top.
-fn block(top: &[Vec3], thickness: f32) -> Option<LocalPart> {
+/// The solid between a flat top and a level bottom, `thickness` below the lowest corner of the top; `rim` are the ways
+/// in which there is no ground beside it.
+fn block(top: &[Vec3], thickness: f32, rim: &[Vec3]) -> Option<LocalPart> {
     let bottom = top.iter().map(|p| p.y).fold(f32::INFINITY, f32::min) - thickness;
     let points: Vec<Vec3> = top.iter().flat_map(|p| [*p, p.with_y(bottom)]).collect();
     let parallelogram = (top[1] - top[0]).cross(top[2] - top[0]);
     let area = parallelogram.length() * if top.len() == 3 { 0.5 } else { 1.0 };
     let normal = parallelogram.try_normalize()?;
     let normal = if normal.y < 0.0 { -normal } else { normal };
-    // Nothing tilts over an edge: next to ground there is ground.
+    // A way out may be tilted over the rim; nowhere else, for next to ground there is ground.
     let middle = top.iter().sum::<Vec3>() / top.len() as f32;
-    let outward = |way: Vec3| (way - normal * way.dot(normal)).try_normalize().map(|way| (way, 0.0));
-    let edges = [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z].into_iter().filter_map(outward).collect();
+    let edge = |way: Vec3| {
+        let along = (way - normal * way.dot(normal)).try_normalize()?;
+        Some((along, if rim.contains(&way) { f32::INFINITY } else { 0.0 }))
+    };
+    let edges = SIDES.into_iter().filter_map(edge).collect();
     let face = OuterFace { normal, offset: normal.dot(middle), area, middle, thickness, two_sided: false, edges };
     LocalPart::piece(&points, &face).ok()
 }
+
+const SIDES: [Vec3; 4] = [Vec3::NEG_X, Vec3::X, Vec3::NEG_Z, Vec3::Z];

@@ -76,3 +76,46 @@ impl OuterFace {
 
 /// Least cosine between a way out and the normal.
 const STEEPEST: f32 = 0.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn face(edges: Vec<(Vec3, f32)>, two_sided: bool) -> OuterFace {
+        OuterFace { normal: Vec3::Y, offset: 0.0, area: 1.0, middle: Vec3::ZERO, thickness: 1.0, two_sided, edges }
+    }
+
+    #[test]
+    fn a_way_out_is_tilted_over_an_edge_as_far_as_the_surface_bends_away_there() {
+        // To the right the surface bends away by a right angle, to the left it goes on, to the back it ends.
+        let face = face(vec![(Vec3::X, 1.0), (Vec3::NEG_X, 0.0), (Vec3::NEG_Z, f32::INFINITY)], false);
+        let close = |a: Vec3, b: Vec3| a.distance(b) < 1e-6;
+        let diagonal = Vec3::new(1.0, 1.0, 0.0).normalize();
+        assert!(close(face.way_out(diagonal), diagonal));
+        assert!(close(face.way_out(Vec3::new(3.0, 1.0, 0.0).normalize()), diagonal), "halfway round the edge at most");
+        assert!(close(face.way_out(Vec3::new(-1.0, 1.0, 0.0).normalize()), Vec3::Y), "not into the neighbour");
+        let back = Vec3::new(0.0, 0.1, -1.0).normalize();
+        assert!(close(face.way_out(back), back));
+        let below = Vec3::new(0.3, -1.0, 0.2).normalize();
+        assert!(close(face.way_out(below), below), "a solid says nothing about its inside");
+    }
+
+    #[test]
+    fn a_sheet_leads_out_on_the_side_that_one_is_on() {
+        let sheet = face(vec![(Vec3::X, 0.0), (Vec3::NEG_X, 0.0)], true);
+        assert!(sheet.way_out(Vec3::new(0.5, -1.0, 0.0).normalize()).distance(Vec3::NEG_Y) < 1e-6);
+        assert_eq!((sheet.exit(Vec3::NEG_Y, Vec3::Y), sheet.way_to_surface(Vec3::NEG_Y)), (None, None));
+    }
+
+    #[test]
+    fn depths_count_to_the_plane_of_the_face_wherever_it_is_moved() {
+        let pose = Pose::from_parts(Vec3::new(1.0, 2.0, 3.0), crate::math::Quat::from_rotation_z(0.7));
+        let moved = face(Vec::new(), false).moved(&pose);
+        let x = pose.transform_point(Vec3::new(0.3, -0.25, -0.4));
+        let way = moved.way_to_surface(x).expect("a solid");
+        assert!((way - pose.rotation * (Vec3::Y * 0.25)).length() < 1e-6);
+        let tilted = pose.rotation * Vec3::new(0.6, 0.8, 0.0);
+        assert!((moved.exit(x, tilted).expect("it leads out") - 0.25 / 0.8).abs() < 1e-6);
+        assert_eq!(moved.exit(x, pose.rotation * Vec3::X), None);
+    }
+}

@@ -56,6 +56,9 @@ impl PartSource {
             }
             TypedShape::HeightField(field) => Self::HeightField(HeightFieldPieces::new(field)?),
             TypedShape::TriMesh(mesh) => Self::Surface(SurfaceFaces::new(mesh, shape)?),
+            TypedShape::Voxels(grid) if grid.voxels().next().is_none() => {
+                return Err(ObstacleError::NoArea(shape.shape_type()));
+            }
             TypedShape::Voxels(_) => Self::Voxels(shape.clone()),
             TypedShape::Polyline(_) => Self::Polyline(shape.clone()),
             _ => {

@@ -32,21 +32,41 @@ impl Interface {
         if overlap.is_empty() {
             return None;
         }
-        let frame = frame_of(normal, along.unwrap_or(Vec3::ZERO));
         let (low, high) = overlap.heights(normal);
         let plane = low + (high - low) * share;
-        let points = || overlap.a.iter().chain(&overlap.b).map(|p| p.position);
+        let interface = Self {
+            centre: normal * plane,
+            frame: frame_of(normal, along.unwrap_or(Vec3::ZERO)),
+            half: [f32::NEG_INFINITY; 2],
+            round: along.is_none().then_some(f32::NEG_INFINITY),
+            reach: [0.0; 2],
+        };
+        Some(interface.widened(overlap))
+    }
+
+    /// The same plane, wide enough for what overlaps now too.
+    #[must_use]
+    pub fn widened(&self, overlap: &Overlap) -> Self {
+        let frame = self.frame;
+        let plane = self.centre.dot(frame.z_axis);
         let (mut from, mut to) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        if self.half[0] >= 0.0 {
+            let (middle, half) = (frame.transpose() * self.centre, Vec3::new(self.half[0], self.half[1], 0.0));
+            (from, to) = (middle - half, middle + half);
+        }
+        let points = || overlap.a.iter().chain(&overlap.b).map(|p| p.position);
         for x in points() {
             let local = frame.transpose() * x;
             (from, to) = (from.min(local), to.max(local));
         }
-        let middle = 0.5 * (from + to);
-        let half = 0.5 * (to - from);
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let centre = frame * Vec3::new(middle.x, middle.y, plane);
         let aside = |x: Vec3| (x - centre - frame.z_axis * (x - centre).dot(frame.z_axis)).length();
-        let round = along.is_none().then(|| points().map(aside).fold(0.0, f32::max));
-        Some(Self { centre, frame, half: [half.x, half.y], round, reach: [plane - low, high - plane] })
+        let kept = self.round.map(|radius| radius + aside(self.centre));
+        let round = kept.map(|kept| points().map(aside).fold(kept.max(0.0), f32::max));
+        let (low, high) = overlap.heights(frame.z_axis);
+        let reach = [self.reach[0].max(plane - low), self.reach[1].max(high - plane)];
+        Self { centre, frame, half: [half.x, half.y], round, reach }
     }
 }
 

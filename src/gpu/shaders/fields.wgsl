@@ -61,5 +61,8 @@ fn hugging_velocity(field: u32, x: vec3<f32>, t: f32) -> vec3<f32> {
     if beside.y != 0.0 {
         grad += away_from_patch * (2.0 * weight.x * beside.y / from_patch);
     }
-    return curl_of_weighted_rotation(2.0 * beside.x * weight.x, grad, d.xyz, x - gauge);
+    let spread = reals(field + 8u);
+    let b = x - gauge;
+    let given_way = b * (1.0 - spread.w) + spread.xyz * (2.0 * spread.w * dot(spread.xyz, b));
+    return curl_of_weighted_rotation(2.0 * beside.x * weight.x, grad, d.xyz, given_way);
 }

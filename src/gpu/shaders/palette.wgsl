@@ -28,6 +28,12 @@ fn skin_weights(vertex: RestVertex) -> SkinWeights {
     return SkinWeights(low & vec4<u32>(0xffffu), vertex.weights);
 }
 
+// The weight of a segment for this vertex, 0 where it has none.
+fn weight_of(skin: SkinWeights, segment: u32) -> f32 {
+    let own = select(vec4<f32>(0.0), skin.weights, skin.segments == vec4<u32>(segment));
+    return own.x + own.y + own.z + own.w;
+}
+
 // The vertex's share in a field whose shares begin at row `first`, four segments a row: all of it where there are none.
 fn share_of(skin: SkinWeights, first: u32) -> f32 {
     if first == 0u {
