@@ -1,6 +1,6 @@
 //! What a penetration looked like before the cancellation and what is left of it, by parry's exact queries.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rayon::prelude::*;
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::cancel::CancelReport;
 use super::coherence::TimeCoherence;
 use super::obstacle::ObstaclePart;
-use super::penetrations::Contact;
+use super::penetrations::{Contact, SAME_WAY};
 use super::piercing::deepest_on_triangle;
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
@@ -93,23 +93,29 @@ fn deepest_triangle(body: &ElasticBody, parts: &[ObstaclePart], least: f32) -> f
     body.rig().mesh.triangles.par_iter().with_min_len(256).map(triangle).reduce(|| 0.0, f32::max)
 }
 
-/// How far the skin of each contact is from its obstacle now.
+/// How far the skin of each contact is from its obstacles now.
 ///
 /// The parts of one obstacle count together: they overlap, and what leaves one of them may have to stop at the next.
-/// Contacts with one obstacle that push the same way count together too: the deepest decides how far they are carried.
+/// Contacts beside each other that push the same way, with one part or with parts that touch each other, count together
+/// too: the deepest decides how far they are carried.
 fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> Vec<f32> {
     let mut obstacles: BTreeMap<(u32, u32), Vec<&ObstaclePart>> = BTreeMap::new();
     for part in parts {
         obstacles.entry(part.collider.into_raw_parts()).or_default().push(part);
     }
-    let of = |contact: &Contact| parts[contact.near.part].collider.into_raw_parts();
     let gap = |contact: &Contact| {
-        let obstacle = obstacles.get(&of(contact)).map(Vec::as_slice).unwrap_or_default();
-        contact_gap(body, contact, obstacle, PIERCING_RESOLUTION * size)
+        let colliders: BTreeSet<(u32, u32)> =
+            contact.parts().into_iter().map(|part| parts[part].collider.into_raw_parts()).collect();
+        let obstacle: Vec<&ObstaclePart> =
+            colliders.iter().flat_map(|collider| &obstacles[collider]).copied().collect();
+        contact_gap(body, contact, &obstacle, PIERCING_RESOLUTION * size)
     };
     let own: Vec<f32> = report.contacts.par_iter().map(gap).collect();
-    let together =
-        |a: &Contact, b: &Contact| of(a) == of(b) && a.near.normal.dot(b.near.normal) > SAME_WAY && overlap(a, b);
+    let together = |a: &Contact, b: &Contact| {
+        let along = a.near.normal.dot(b.near.normal);
+        let touch = || parts[a.near.part].aabb.intersects(&parts[b.near.part].aabb);
+        overlap(a, b) && (a.near.part == b.near.part && along > ROUGHLY || along > SAME_WAY && touch())
+    };
     let least = |a: &Contact| {
         let others = report.contacts.iter().zip(&own).filter(|(b, _)| together(a, b));
         others.map(|(_, gap)| *gap).fold(f32::INFINITY, f32::min)
@@ -117,8 +123,8 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelRe
     report.contacts.iter().map(least).collect()
 }
 
-/// Cosine from which on two contacts push the same way.
-const SAME_WAY: f32 = 0.5;
+/// Cosine from which on two contacts with one part push the same way.
+const ROUGHLY: f32 = 0.5;
 
 /// True where two contacts are beside each other.
 fn overlap(a: &Contact, b: &Contact) -> bool {
