@@ -18,14 +18,14 @@ mod structured;
 #[path = "penetration_cancellation/survey.rs"]
 mod survey;
 
-use pliant::coupling::CancelSettings;
+use pliant::coupling::{CancelSettings, Placement};
 
 use figures::{Limits, cancelled};
 use kinds::Kind;
 use poses::Subject;
 use scene_file::write_scene;
 use structured::{Arrangement, arrangements, pinned};
-use survey::survey;
+use survey::{survey, survey_with};
 
 /// Every kind of obstacle, pushed into a body in random poses.
 fn holds_for(name: &'static str) {
@@ -111,6 +111,24 @@ fn a_body_without_any_room_stays_finite_and_unfolded_and_the_report_says_so() {
             assert!(figures.penetration.uncancelled && report.left > 0.0, "{said}");
             // It is no worse than it was.
             assert!(figures.penetration.max_depth_after <= depth + 1e-3, "{said}");
+        }
+    }
+}
+
+#[test]
+#[ignore = "prints the tables of docs/penetration.md, and asserts nothing"]
+fn tables() {
+    for placement in [Placement::Hugging, Placement::Literal] {
+        let settings = CancelSettings { placement, ..CancelSettings::default() };
+        println!("\n{placement:?}\n");
+        println!("| body | obstacle | all holds % | depth % | piercing % | gap % | volume % | passes | folded poses |");
+        println!("|---|---|---|---|---|---|---|---|---|");
+        for name in ["ball", "head", "camel"] {
+            let subject = Subject::load(name);
+            for kind in Kind::ALL {
+                let cells = survey_with(&subject, kind, &Limits::ONE, &settings).cells();
+                println!("| {name} | {kind:?} | {cells} |");
+            }
         }
     }
 }

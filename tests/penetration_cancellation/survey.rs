@@ -39,6 +39,11 @@ const MANY_PASSES: f32 = 0.01;
 
 /// Runs all poses of a kind.
 pub fn survey(subject: &Subject, kind: Kind, limits: &Limits) -> Survey {
+    survey_with(subject, kind, limits, &CancelSettings::default())
+}
+
+/// Runs all poses of a kind with these settings.
+pub fn survey_with(subject: &Subject, kind: Kind, limits: &Limits, settings: &CancelSettings) -> Survey {
     let name = format!("{} {kind:?}", subject.name);
     if std::env::var("PLIANT_SUITE_KIND").is_ok_and(|only| !name.contains(&only)) {
         return Survey { name, figures: Vec::new(), bad: 0, faults: Vec::new() };
@@ -47,7 +52,7 @@ pub fn survey(subject: &Subject, kind: Kind, limits: &Limits) -> Survey {
     let seeds = seed.map_or(0..cases(), |seed: u64| seed..seed + 1);
     let run = |seed| {
         let mut case = random_case(subject, kind, seed);
-        cancelled(&mut case, &CancelSettings::default(), seed % EXACT == 0).0
+        cancelled(&mut case, settings, seed % EXACT == 0).0
     };
     let figures: Vec<(u64, Figures)> = seeds.into_par_iter().map(|seed| (seed, run(seed))).collect();
     let mut faults = Vec::new();
@@ -78,6 +83,25 @@ pub fn survey(subject: &Subject, kind: Kind, limits: &Limits) -> Survey {
         faults.push(format!("{name}: more than 4 passes in {many} of {}", figures.len()));
     }
     Survey { name, figures, bad, faults }
+}
+
+impl Survey {
+    /// The cells of a table: share of poses in which all holds, worst depth, piercing, gap and change of volume in
+    /// percent, most passes, poses with folded triangles.
+    pub fn cells(&self) -> String {
+        let count = self.figures.len().max(1) as f32;
+        let worst = |value: fn(&Figures) -> f32| 100.0 * self.figures.iter().map(|(_, f)| value(f)).fold(0.0, f32::max);
+        format!(
+            "{:.1} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {}",
+            100.0 * (count - self.bad as f32) / count,
+            worst(|f| f.penetration.max_depth_after),
+            worst(|f| f.penetration.max_piercing),
+            worst(|f| f.penetration.max_gap),
+            worst(|f| f.volume.abs()),
+            self.figures.iter().map(|(_, f)| f.passes).max().unwrap_or(0),
+            self.figures.iter().filter(|(_, f)| f.folded > 0).count(),
+        )
+    }
 }
 
 impl fmt::Display for Survey {
