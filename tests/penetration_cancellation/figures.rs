@@ -54,23 +54,25 @@ pub fn cancelled(case: &mut Case, settings: &CancelSettings, exact: bool) -> (Fi
 const EXACT: u32 = 8;
 
 /// Triangles whose three corners' normals, carried by the flow, all point against the triangle's own.
+///
+/// Only triangles that turned by more than 60 degrees are looked at: carrying normals is costly.
 fn folded(case: &Case, before: &[Vec3]) -> u32 {
     let (body, rig) = (&case.body, case.body.rig());
     let epsilon = 1e-4 * case.size;
-    let normal = |v: usize| {
-        if body.positions()[v] == before[v] {
-            return None;
-        }
+    let carried = |v: u32| {
+        let v = v as usize;
         let (rest, weights) = (rig.mesh.positions[v], &rig.weights[v]);
-        Some(body.palette().deform_with_normal(rest, rig.mesh.normals[v], weights, epsilon).1)
+        body.palette().deform_with_normal(rest, rig.mesh.normals[v], weights, epsilon).1
     };
-    let normals: Vec<Option<Vec3>> = (0..before.len()).into_par_iter().map(normal).collect();
+    let normal = |positions: &[Vec3], t: &[u32; 3]| {
+        let corner = t.map(|v| positions[v as usize]);
+        (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalize_or_zero()
+    };
     let turned = |t: &&[u32; 3]| {
-        let corner = t.map(|v| body.positions()[v as usize]);
-        let own = (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalize_or_zero();
-        t.iter().all(|&v| normals[v as usize].is_some_and(|carried| carried.dot(own) < 0.0))
+        let own = normal(body.positions(), t);
+        own.dot(normal(before, t)) < 0.5 && t.iter().all(|&v| carried(v).dot(own) < 0.0)
     };
-    rig.mesh.triangles.iter().filter(turned).count() as u32
+    rig.mesh.triangles.par_iter().filter(turned).count() as u32
 }
 
 /// What is asserted of every pose.

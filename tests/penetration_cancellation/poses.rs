@@ -142,7 +142,9 @@ pub fn random_case(subject: &Subject, kind: Kind, seed: u64) -> Case {
             let middle = 0.5 * (inside + outside);
             if clear(middle) { outside = middle } else { inside = middle }
         }
-        let back = between(&mut rng, 0.0, DEEPEST * size);
+        // The flesh of a limb is thin: drawn back evenly, the obstacle would not touch it.
+        let evenly = if subject.one_segment() { 1 } else { 3 };
+        let back = between(&mut rng, 0.0, 1.0).powi(evenly) * DEEPEST * size;
         if !clear(outside + back) {
             continue;
         }
