@@ -3,8 +3,8 @@
 mod common;
 
 use pliant::coupling::{
-    CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId, SMOOTH, cancel,
-    convex_parts, measure, proximities,
+    CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId, SMOOTH, SkinsMet,
+    cancel, convex_parts, measure, proximities,
 };
 use pliant::elastic::ElasticBody;
 use pliant::math::{Pose, Quat, Vec3};
@@ -91,7 +91,7 @@ fn a_body_that_rides_on_its_obstacle_is_perfectly_coherent() {
         memory.begin(&body);
         let report = cancelled(&mut body, &parts);
         assert!(report.passes > 0);
-        let coherence = memory.end(&body, &parts, &report, RADIUS, &settings);
+        let coherence = memory.end(&body, &parts, SkinsMet::default(), &report, RADIUS, &settings);
         // Rounding of poses decides which vertices are just deeper than the tolerance: less than that may change.
         let small = coherence.change < settings.depth_tolerance && coherence.motion < 1e-5;
         assert!(small && coherence.ratio < SMOOTH, "{coherence:?}");
@@ -106,13 +106,17 @@ fn a_cancellation_that_is_left_out_for_a_step_is_seen_as_a_pop() {
     let parts = floor(-0.4);
     memory.begin(&body);
     let report = cancelled(&mut body, &parts);
-    assert_eq!(memory.end(&body, &parts, &report, RADIUS, &settings).ratio, 0.0, "there is no step before");
+    assert_eq!(
+        memory.end(&body, &parts, SkinsMet::default(), &report, RADIUS, &settings).ratio,
+        0.0,
+        "there is no step before"
+    );
     place(&mut body, Pose::IDENTITY);
     memory.begin(&body);
-    let pop = memory.end(&body, &parts, &CancelReport::default(), RADIUS, &settings);
+    let pop = memory.end(&body, &parts, SkinsMet::default(), &CancelReport::default(), RADIUS, &settings);
     assert!(pop.change > 0.19 && pop.motion == 0.0 && pop.ratio > 10.0 * SMOOTH, "{pop:?}");
     // Where nobody knows what was before, nothing is said.
     memory.forget();
     memory.begin(&body);
-    assert_eq!(memory.end(&body, &parts, &CancelReport::default(), RADIUS, &settings).ratio, 0.0);
+    assert_eq!(memory.end(&body, &parts, SkinsMet::default(), &CancelReport::default(), RADIUS, &settings).ratio, 0.0);
 }

@@ -3,7 +3,7 @@
 //!
 //! Let `D` be the displacement of a vertex by all passes of a step, seen in the frame of the segment that has most weight
 //! there. Let `m` be the largest way that a vertex of the skin, before the cancellation, has gone since the step before,
-//! seen from an obstacle that the skin touches in one of the two steps. Then
+//! seen from an obstacle, or from a segment of another skin, that the skin touches in one of the two steps. Then
 //!
 //! ```text
 //! ratio = max |D − D of the step before| / (m + floor / 8)
@@ -13,6 +13,7 @@
 //! vertex changes by more than 8 m + floor: nothing pops.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -45,6 +46,15 @@ pub struct CoherenceMemory {
     last: Option<Moment>,
 }
 
+/// The elastic skins around a body in one step.
+#[derive(Clone, Debug, Default)]
+pub struct SkinsMet {
+    /// World from rest of each segment of each body.
+    pub motions: Arc<BTreeMap<(u32, u32), Vec<Pose>>>,
+    /// Body and segment of each skin that this one touches.
+    pub touched: BTreeSet<((u32, u32), usize)>,
+}
+
 #[derive(Clone, Debug)]
 struct Moment {
     before: Vec<Vec3>,
@@ -53,6 +63,7 @@ struct Moment {
     parts: BTreeMap<PartId, Pose>,
     /// The colliders that the skin touches.
     touched: BTreeSet<(u32, u32)>,
+    skins: SkinsMet,
 }
 
 impl CoherenceMemory {
@@ -67,11 +78,13 @@ impl CoherenceMemory {
         self.before.extend_from_slice(body.positions());
     }
 
-    /// After the cancellation: compares it with that of the step before.
+    /// After the cancellation: compares it with that of the step before. Contacts with anything but the `parts` are those
+    /// with the skins.
     pub fn end(
         &mut self,
         body: &ElasticBody,
         parts: &[ObstaclePart],
+        skins: SkinsMet,
         report: &CancelReport,
         size: f32,
         settings: &CancelSettings,
@@ -83,9 +96,9 @@ impl CoherenceMemory {
         let moved: Vec<Vec3> =
             body.positions().iter().zip(&self.before).zip(&body.rig().weights).map(displacement).collect();
         let touched = report.contacts.iter().flat_map(|contact| &contact.points);
-        let touched = touched.map(|p| parts[p.part].id.collider).collect();
+        let touched = touched.filter_map(|p| Some(parts.get(p.part)?.id.collider)).collect();
         let places = parts.iter().map(|part| (part.id, *part.placed.pose())).collect();
-        let now = Moment { before: std::mem::take(&mut self.before), moved, parts: places, touched };
+        let now = Moment { before: std::mem::take(&mut self.before), moved, parts: places, touched, skins };
         let floor = (settings.depth_tolerance + settings.gap_tolerance) * size;
         let coherence = self.last.as_ref().and_then(|last| compare(last, &now, size, floor)).unwrap_or_default();
         // The allocation of the step before serves the next one.
@@ -108,14 +121,21 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
         .enumerate()
         .fold((0, 0.0), |best, (v, change)| if change > best.1 { (v, change) } else { best });
     let mut motion = 0.0_f32;
-    for &collider in last.touched.union(&now.touched) {
-        let of_collider = PartId { collider, part: 0 }..=PartId { collider, part: u32::MAX };
-        let mut common = now.parts.range(of_collider).filter_map(|(id, new)| Some((last.parts.get(id)?, new)));
-        let (old, new) = common.next()?;
+    let mut see = |old: &Pose, new: &Pose| {
         let way =
             |(a, b): (&Vec3, &Vec3)| old.inverse_transform_point(*a).distance_squared(new.inverse_transform_point(*b));
         let farthest = last.before.par_iter().zip(&now.before).with_min_len(1024).map(way).reduce(|| 0.0, f32::max);
         motion = motion.max(farthest.sqrt());
+    };
+    for &collider in last.touched.union(&now.touched) {
+        let of_collider = PartId { collider, part: 0 }..=PartId { collider, part: u32::MAX };
+        let mut common = now.parts.range(of_collider).filter_map(|(id, new)| Some((last.parts.get(id)?, new)));
+        let (old, new) = common.next()?;
+        see(old, new);
+    }
+    for (body, segment) in last.skins.touched.union(&now.skins.touched) {
+        let motion = |skins: &SkinsMet| skins.motions.get(body)?.get(*segment).copied();
+        see(&motion(&last.skins)?, &motion(&now.skins)?);
     }
     let ratio = change / (motion + floor / SMOOTH);
     Some(TimeCoherence { ratio, change: change / size, motion: motion / size, vertex: vertex as u32 })

@@ -18,7 +18,7 @@ mod skin_point;
 mod strength;
 
 pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
-pub use coherence::{CoherenceMemory, SMOOTH, TimeCoherence};
+pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;

@@ -131,7 +131,7 @@ impl DeformationWorld {
     /// anew, further rounds follow.
     fn cancel_penetrations(&mut self, encounters: &mut [Encounter], pairs: &[SegmentPair]) {
         if self.settings.measure {
-            self.active(encounters).into_par_iter().for_each(|(entry, _)| entry.coherence.begin(&entry.body));
+            self.begin_coherence(encounters);
         }
         let mut pairs = pairs.to_vec();
         let mut interfaces = Interfaces::new();
@@ -148,6 +148,7 @@ impl DeformationWorld {
         }
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);
+            self.measure_coherence(encounters, &interfaces);
         }
     }
 
@@ -157,7 +158,7 @@ impl DeformationWorld {
     }
 
     /// The bodies that are deformed in this step.
-    fn active<'a>(&'a mut self, encounters: &'a [Encounter]) -> Vec<(&'a mut Entry, &'a Encounter)> {
+    pub(super) fn active<'a>(&'a mut self, encounters: &'a [Encounter]) -> Vec<(&'a mut Entry, &'a Encounter)> {
         let entries = self.entries.iter_mut().map(|(_, entry)| entry);
         entries.zip(encounters).filter(|(_, encounter)| encounter.is_active()).collect()
     }
@@ -188,12 +189,10 @@ impl DeformationWorld {
                 ..BodyReport::default()
             };
             if self.settings.measure && encounter.frozen.is_none() {
-                let cancel = &self.settings.cancel;
                 let Encounter { parts, obstacles, cancelled, .. } = &mut encounter;
-                let coherence = entry.coherence.end(&entry.body, parts, cancelled, entry.size, cancel);
                 cancelled.contacts.retain(|contact| contact.near.part < *obstacles);
                 figures.penetration = measure(&entry.body, &parts[..*obstacles], entry.size, cancelled);
-                figures.penetration.coherence = coherence;
+                figures.penetration.coherence = encounter.coherence;
                 figures.max_pair_depth = encounter.pair_depth / entry.size;
                 let volume =
                     crate::mesh::measure::signed_volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
