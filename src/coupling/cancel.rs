@@ -5,7 +5,7 @@
 
 use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, find_contacts, find_piercings};
+use super::penetrations::{Contact, add_piercings, find_contacts, find_guards, find_piercings};
 use super::strength::solve_pass;
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
@@ -85,8 +85,9 @@ pub fn cancel(
     let before = body.palette().passes.len();
     loop {
         let mut contacts = find_contacts(body, parts, near, tolerance);
-        if report.passes > 0 || contacts.is_empty() {
-            contacts.extend(find_piercings(body, parts, near, tolerance));
+        let small = contacts.iter().all(|contact| contact.depth() < SMALL * size);
+        if small {
+            add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
         }
         report.left = contacts.iter().map(|contact| contact.shortest_depth(body, parts)).fold(0.0, f32::max);
         if report.left < best.worst {
@@ -98,13 +99,16 @@ pub fn cancel(
         }
         let softness = settings.softness.unwrap_or(body.rig().softness);
         let mut reach = softness.clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
-        if report.passes >= WIDE_PASSES {
+        if report.passes >= WIDE_PASSES && small {
             // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
             reach *= 0.5;
             contacts =
                 contacts.into_iter().map(|c| if c.pierced { c } else { c.by_the_nearest_way(body, parts) }).collect();
         }
-        let pass = solve_pass(body, parts, near, &contacts, reach, size, settings);
+        let height = contacts.iter().map(Contact::depth).fold(0.0, f32::max).min(GUARD_HEIGHT * size);
+        let guards = find_guards(body, parts, near, &contacts, height);
+        let all: Vec<Contact> = contacts.iter().cloned().chain(guards).collect();
+        let pass = solve_pass(body, parts, near, &all, reach, size, settings);
         if report.passes == 0 {
             report.contacts = contacts;
         }
@@ -148,6 +152,12 @@ fn literal(
 /// Softness outside of these bounds is taken as the bound.
 const LEAST_SOFTNESS: f32 = 0.05;
 const MOST_SOFTNESS: f32 = 10.0;
+
+/// Parts within this part of the size are guarded while others push.
+const GUARD_HEIGHT: f32 = 0.15;
+
+/// Depths below this part of the size are small: then triangles are looked at too, and the shortest way out is the best.
+const SMALL: f32 = 0.04;
 
 /// Passes with fields of full width.
 const WIDE_PASSES: u32 = 2;

@@ -31,7 +31,7 @@ pub use pairs::{
     HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
     segment_bounds,
 };
-pub use penetrations::{Contact, Penetration, find_contacts, find_piercings};
+pub use penetrations::{Contact, Penetration, find_contacts, find_guards, find_piercings};
 pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};
 pub use skin_point::SkinPoint;
 mod foundation;

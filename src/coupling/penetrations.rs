@@ -36,6 +36,9 @@ pub struct Contact {
     pub radius: f32,
     /// True where the points lie within triangles, whose corners are outside.
     pub pierced: bool,
+    /// 0 for points that have gone in. A guard's points are outside still, at depths from minus this height to 0: others may
+    /// push them in.
+    pub guards: f32,
 }
 
 /// The contacts of a skin with the parts near it, vertices deeper than `tolerance` only.
@@ -106,6 +109,68 @@ pub fn find_piercings(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proxim
     contacts
 }
 
+/// Contacts that are none yet: parts that the skin is within `height` metres of. Whoever pushes the skin elsewhere must not
+/// push it into them.
+pub fn find_guards(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    contacts: &[Contact],
+    height: f32,
+) -> Vec<Contact> {
+    let touches = |near: &&Proximity| {
+        let own = |contact: &Contact| contact.near.segment == near.segment && contact.parts().contains(&near.part);
+        !contacts.iter().any(own)
+    };
+    let guard = |near: &Proximity| {
+        let (part, skin) = (&parts[near.part], &body.skins()[usize::from(near.segment)]);
+        let around = part.aabb.loosened(height);
+        let close = |&vertex: &u32| {
+            let x = body.positions()[vertex as usize];
+            if !around.contains_local_point(x) {
+                return None;
+            }
+            let (distance, out) = part.placed.signed_distance(x);
+            let before = distance < height && out.dot(near.normal) > BEFORE;
+            before.then_some(Penetration {
+                point: SkinPoint::vertex(vertex),
+                part: near.part,
+                depth: -distance.max(0.0),
+            })
+        };
+        let mut points: Vec<Penetration> = skin.vertices.iter().filter_map(close).collect();
+        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
+        points.truncate(GUARDED);
+        (!points.is_empty()).then(|| Contact::guarding(body, *near, points, height))
+    };
+    let idle: Vec<&Proximity> = near.iter().filter(touches).collect();
+    idle.par_iter().map(|near| guard(near)).collect::<Vec<_>>().into_iter().flatten().collect()
+}
+
+/// Most points that are guarded at one part.
+const GUARDED: usize = 64;
+
+/// Points lie before a part where the cosine between their way from it and the contact's is above this.
+const BEFORE: f32 = 0.5;
+
+/// Adds contacts of pierced triangles to those of vertices: points of the same segment and part that go the same way make one.
+pub fn add_piercings(body: &ElasticBody, parts: &[ObstaclePart], pierced: Vec<Contact>, contacts: &mut Vec<Contact>) {
+    for piercing in pierced {
+        let same = |contact: &&mut Contact| {
+            let (a, b) = (&contact.near, &piercing.near);
+            a.segment == b.segment && a.part == b.part && a.normal.dot(b.normal) > SAME_WAY
+        };
+        match contacts.iter_mut().find(same) {
+            Some(contact) => {
+                contact.absorb(body, parts, &piercing);
+                let Contact { near, points, .. } = contact.clone();
+                *contact = Contact::new(body, near, points);
+            }
+            None => contacts.push(piercing),
+        }
+    }
+}
+
 /// A way out is taken where it is at most this many times as long as the shortest.
 const ASKEW: f32 = 5.0;
 
@@ -135,19 +200,24 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
 pub(super) const SAME_WAY: f32 = 0.82;
 
 impl Contact {
-    fn new(body: &ElasticBody, near: Proximity, mut points: Vec<Penetration>) -> Self {
-        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
-        let out = |p: &Penetration| p.point.position(body.positions()) + near.normal * p.depth;
-        let weight: f32 = points.iter().map(|p| p.depth).sum();
-        let centre = points.iter().map(|p| out(p) * p.depth).sum::<Vec3>() / weight;
-        let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * p.depth).sum();
-        let pierced = points.iter().all(|p| !p.point.is_vertex());
-        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced }
+    fn new(body: &ElasticBody, near: Proximity, points: Vec<Penetration>) -> Self {
+        Self::guarding(body, near, points, 0.0)
     }
 
-    /// Depth of the deepest point.
+    fn guarding(body: &ElasticBody, near: Proximity, mut points: Vec<Penetration>, guards: f32) -> Self {
+        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
+        let out = |p: &Penetration| p.point.position(body.positions()) + near.normal * p.depth;
+        let weigh = |p: &Penetration| (p.depth + guards).max(f32::MIN_POSITIVE);
+        let weight: f32 = points.iter().map(weigh).sum();
+        let centre = points.iter().map(|p| out(p) * weigh(p)).sum::<Vec3>() / weight;
+        let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * weigh(p)).sum();
+        let pierced = points.iter().all(|p| !p.point.is_vertex());
+        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, guards }
+    }
+
+    /// Depth of the deepest point, 0 for a guard.
     pub fn depth(&self) -> f32 {
-        self.points.first().map_or(0.0, |p| p.depth)
+        self.points.first().map_or(0.0, |p| p.depth.max(0.0))
     }
 
     /// The deepest point by the shortest way out, in metres.

@@ -88,7 +88,7 @@ fn outcome(
 ) -> Outcome {
     let Penetration { point, part, .. } = *probe;
     let x = point.flow(body, pass);
-    let gap = match parts[part].exit(x, contact.near.normal, 2.0 * contact.depth()) {
+    let gap = match parts[part].exit(x, contact.near.normal, 2.0 * (contact.depth() + contact.guards)) {
         Some(depth) => -depth,
         None => parts[part].placed.distance(x).0,
     };

@@ -34,6 +34,7 @@ pub(super) fn solve_pass(
     strength.iter_mut().for_each(|strength| *strength *= part);
     let gap_tolerance = settings.gap_tolerance * size;
     let slack = 0.5 * settings.depth_tolerance * size;
+    let strongest = STRONGEST * contacts.iter().map(Contact::depth).fold(0.0, f32::max);
     let mut probes = Probes::new(contacts);
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
@@ -54,8 +55,8 @@ pub(super) fn solve_pass(
             })
             .collect();
         complementarity(&matrix, &wanted, &mut strength);
-        for (strength, contact) in strength.iter_mut().zip(contacts) {
-            *strength = strength.min(STRONGEST * contact.depth());
+        for strength in &mut strength {
+            *strength = strength.min(strongest);
         }
     }
     set_strengths(&mut pass, contacts, &strength, body, settings);
@@ -80,7 +81,7 @@ const AGAINST_EACH_OTHER: f32 = -0.3;
 /// What is gone in one pass against others, in sizes of the body.
 const STRIDE: f32 = 0.12;
 
-/// A field is at most this many times as strong as its contact is deep: more would mean that it works against others,
+/// A field is at most this many times as strong as the deepest contact is deep: more would mean that it works against others,
 /// and the next pass, with new contacts, does better.
 const STRONGEST: f32 = 2.0;
 
@@ -105,7 +106,8 @@ fn place_fields(
         let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
-        let patch = Patch { centre: contact.centre, radius: contact.radius, width };
+        let beside = width + lat() * contact.radius;
+        let patch = Patch { centre: contact.centre, radius: contact.radius, width: beside };
         SegmentField {
             shares: shares(body, parts, contact, near),
             field: CollisionField::Hugging(HuggingField {
@@ -226,4 +228,7 @@ fn influence(
         }
     }
     matrix
+}
+fn lat() -> f32 {
+    std::env::var("LAT").ok().and_then(|s| s.parse().ok()).unwrap_or(1.0)
 }

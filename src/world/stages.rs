@@ -1,6 +1,6 @@
 //! One step, stage by stage, in order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 use rapier3d::dynamics::RigidBodySet;
@@ -11,7 +11,6 @@ use rayon::prelude::*;
 
 use super::deformation_world::{DeformationWorld, ElasticBodyHandle, Entry, Settled};
 use super::encounter::Encounter;
-use super::meetings::Interfaces;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
@@ -134,9 +133,9 @@ impl DeformationWorld {
             self.begin_coherence(encounters);
         }
         let mut pairs = pairs.to_vec();
-        let mut interfaces = Interfaces::new();
+        let mut parted = BTreeSet::new();
         for round in 0..=PAIR_ROUNDS {
-            let touched = self.part_skins(encounters, &pairs, &mut interfaces);
+            let touched = self.part_skins(encounters, &pairs, &mut parted);
             if round > 0 && !touched.contains(&true) {
                 break;
             }
