@@ -1,7 +1,7 @@
 //! Penetration cancellation: no vertex and no triangle of the visible skin is seen inside an obstacle.
 //!
 //! `PLIANT_SUITE=full` runs 1,000 poses of each kind; `PLIANT_SUITE_KIND` and `PLIANT_SUITE_SEED` pick one.
-#![allow(clippy::print_stdout)] // the figures are what one runs the suite for
+#![allow(clippy::print_stdout, reason = "the figures are what one runs the suite for")]
 
 #[path = "penetration_cancellation/figures.rs"]
 mod figures;

@@ -1,14 +1,13 @@
 //! Measuring how smoothly the cancellation changes from step to step.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::deformation_world::DeformationWorld;
 use super::encounter::Encounter;
-use super::meetings::Interfaces;
-use crate::coupling::SkinsMet;
+use crate::coupling::{SegmentRef, SkinsMet};
 
 impl DeformationWorld {
     /// Remembers the skins before the cancellation.
@@ -16,15 +15,19 @@ impl DeformationWorld {
         self.active(encounters).into_par_iter().for_each(|(entry, _)| entry.coherence.begin(&entry.body));
     }
 
-    /// Compares the cancellation with that of the step before.
-    pub(super) fn measure_coherence(&mut self, encounters: &mut [Encounter], interfaces: &Interfaces) {
+    /// Compares the cancellation with that of the step before; `parted` are the skins that were pushed apart.
+    pub(super) fn measure_coherence(
+        &mut self,
+        encounters: &mut [Encounter],
+        parted: &BTreeSet<(SegmentRef, SegmentRef)>,
+    ) {
         let raw = |encounter: &Encounter| encounter.handle.into_raw_parts();
         let motions: BTreeMap<_, _> =
             encounters.iter().map(|encounter| (raw(encounter), encounter.motions.clone())).collect();
         let motions = Arc::new(motions);
         let mut met: Vec<SkinsMet> =
             encounters.iter().map(|_| SkinsMet { motions: motions.clone(), ..SkinsMet::default() }).collect();
-        for (a, b) in interfaces.keys() {
+        for (a, b) in parted {
             met[a.body].touched.insert((raw(&encounters[b.body]), b.segment));
             met[b.body].touched.insert((raw(&encounters[a.body]), a.segment));
         }

@@ -147,7 +147,7 @@ impl DeformationWorld {
         }
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);
-            self.measure_coherence(encounters, &interfaces);
+            self.measure_coherence(encounters, &parted);
         }
     }
 

@@ -3,7 +3,7 @@
 //! `PLIANT_SUITE=full` runs the scenes in their whole length, 10,000 steps of the tower and 1,000 steps with each number of
 //! threads. `PLIANT_SUITE_SCENES=ring,press` picks scenes, `PLIANT_SUITE_FRAMES=200` bounds the steps, and with
 //! `PLIANT_SUITE_LOG=1` every row that fails is printed.
-#![allow(clippy::print_stdout)] // the figures are what one runs the suite for
+#![allow(clippy::print_stdout, reason = "the figures are what one runs the suite for")]
 
 mod threads;
 mod worst;
