@@ -3,6 +3,7 @@
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
 mod cancel;
+mod coherence;
 mod common_way;
 mod contact;
 mod gauge;
@@ -17,6 +18,7 @@ mod skin_point;
 mod strength;
 
 pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
+pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
@@ -41,7 +43,7 @@ pub use foundation::{
     FoundationSettings, PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts,
     remember_skin_contacts, skin_contacts,
 };
-pub use measure::{INSIDE, PenetrationFigures, measure};
+pub use measure::{INSIDE, PIERCED, PIERCING_RESOLUTION, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;
 pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities};

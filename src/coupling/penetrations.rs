@@ -197,7 +197,7 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
 }
 
 /// Cosine between two directions that count as one.
-const SAME_WAY: f32 = 0.82;
+pub(super) const SAME_WAY: f32 = 0.82;
 
 impl Contact {
     fn new(body: &ElasticBody, near: Proximity, points: Vec<Penetration>) -> Self {

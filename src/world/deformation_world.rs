@@ -11,8 +11,8 @@ use rapier3d::pipeline::PhysicsWorld;
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::{
-    CancelSettings, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError, PairApproaches, PartCache,
-    PartId, Ragdoll, RagdollStart,
+    CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
+    PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
@@ -108,6 +108,8 @@ pub(super) struct Entry {
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
     pub memories: ContactMemories,
+    /// For the measurement of the time coherence.
+    pub coherence: CoherenceMemory,
     /// False until the body has been placed on its rigid bodies.
     pub placed: bool,
     /// What the last deformation was made from, and what came out.
@@ -201,6 +203,7 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            coherence: CoherenceMemory::default(),
             placed,
             last: None,
         };
