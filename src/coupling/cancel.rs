@@ -5,7 +5,7 @@
 
 use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, add_piercings, find_contacts, find_guards, find_piercings};
+use super::penetrations::{Contact, add_guards, add_piercings, find_contacts, find_guards, find_piercings};
 use super::strength::solve_pass;
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
@@ -47,7 +47,7 @@ impl Default for CancelSettings {
             depth_tolerance: 5.0e-4,
             gap_tolerance: 2.0e-3,
             max_passes: 12,
-            max_rounds: 6,
+            max_rounds: 10,
             max_steps: 64,
             placement: Placement::Hugging,
         }
@@ -107,7 +107,8 @@ pub fn cancel(
         }
         let height = contacts.iter().map(Contact::depth).fold(0.0, f32::max).min(GUARD_HEIGHT * size);
         let guards = find_guards(body, parts, near, &contacts, height);
-        let all: Vec<Contact> = contacts.iter().cloned().chain(guards).collect();
+        let mut all = contacts.clone();
+        add_guards(body, parts, guards, &mut all);
         let (pass, strengths) = solve_pass(body, parts, near, &all, reach, size, settings);
         if report.passes == 0 {
             report.contacts = contacts;

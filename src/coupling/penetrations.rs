@@ -158,17 +158,30 @@ const BEFORE: f32 = 0.5;
 /// Adds contacts of pierced triangles to those of vertices: points of the same segment and part that go the same way make one.
 pub fn add_piercings(body: &ElasticBody, parts: &[ObstaclePart], pierced: Vec<Contact>, contacts: &mut Vec<Contact>) {
     for piercing in pierced {
-        let same = |contact: &&mut Contact| {
-            let (a, b) = (&contact.near, &piercing.near);
-            a.segment == b.segment && a.part == b.part && a.normal.dot(b.normal) > SAME_WAY
-        };
-        match contacts.iter_mut().find(same) {
+        match contacts.iter_mut().find(|contact| contact.goes_with(&piercing, parts)) {
             Some(contact) => {
                 contact.absorb(body, parts, &piercing);
                 let Contact { near, points, .. } = contact.clone();
                 *contact = Contact::new(body, near, points);
             }
             None => contacts.push(piercing),
+        }
+    }
+}
+
+/// Adds guards to contacts: those that go the same way as a contact watch over its neighbourhood, the others stand by
+/// themselves.
+pub fn add_guards(body: &ElasticBody, parts: &[ObstaclePart], guards: Vec<Contact>, contacts: &mut Vec<Contact>) {
+    for guard in guards {
+        match contacts.iter_mut().position(|contact| contact.goes_with(&guard, parts)) {
+            Some(at) => {
+                let height = contacts[at].guards;
+                contacts[at].absorb(body, parts, &guard);
+                let Contact { near, points, .. } = contacts[at].clone();
+                let joined = Contact::guarding(body, near, points, height);
+                contacts[at] = Contact { pierced: contacts[at].pierced, held: contacts[at].held, ..joined };
+            }
+            None => contacts.push(guard),
         }
     }
 }
@@ -185,12 +198,7 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
     contacts.sort_by(|a, b| b.depth().total_cmp(&a.depth()).then(a.near.part.cmp(&b.near.part)));
     let mut groups: Vec<Contact> = Vec::new();
     for contact in contacts {
-        let joins = |group: &&mut Contact| {
-            group.near.segment == contact.near.segment
-                && group.near.normal.dot(contact.near.normal) > SAME_WAY
-                && group.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[contact.near.part].aabb))
-        };
-        match groups.iter_mut().find(joins) {
+        match groups.iter_mut().find(|group| group.goes_with(&contact, parts)) {
             Some(group) => group.absorb(body, parts, &contact),
             None => groups.push(contact),
         }
@@ -256,6 +264,13 @@ impl Contact {
         if points.is_empty() { self } else { Self::new(body, near, points) }
     }
 
+    /// True where another contact of the segment, with a part that touches one of this one's, pushes nearly the same way.
+    fn goes_with(&self, other: &Contact, parts: &[ObstaclePart]) -> bool {
+        self.near.segment == other.near.segment
+            && self.near.normal.dot(other.near.normal) > SAME_WAY
+            && self.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[other.near.part].aabb))
+    }
+
     /// Takes over the points of another contact, with their depths along this one's direction.
     fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
         let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;
@@ -263,7 +278,10 @@ impl Contact {
             self.points.iter().enumerate().map(|(i, p)| (p.point.vertices, i)).collect();
         for p in &other.points {
             let x = p.point.position(body.positions());
-            let depth = parts[p.part].exit(x, self.near.normal, reach).unwrap_or(p.depth);
+            // Beside a flank the common way may be long: then the point's own depth tells how much is asked of it.
+            let reach = if p.point.is_vertex() { reach } else { ASKEW * p.depth };
+            let depth =
+                parts[p.part].exit(x, self.near.normal, reach).filter(|depth| *depth < reach).unwrap_or(p.depth);
             match places.get(&p.point.vertices).map(|&i| &mut self.points[i]) {
                 Some(own) if own.depth >= depth => {}
                 Some(own) => *own = Penetration { depth, ..*p },

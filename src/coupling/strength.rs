@@ -36,6 +36,7 @@ pub(super) fn solve_pass(
     let slack = 0.5 * settings.depth_tolerance * size;
     let strongest = STRONGEST * contacts.iter().map(Contact::depth).fold(0.0, f32::max);
     let mut probes = Probes::new(contacts);
+    let mut best = (f32::INFINITY, strength.clone());
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
         let outcome = probes.outcomes(body, &pass, contacts, parts);
@@ -44,8 +45,14 @@ pub(super) fn solve_pass(
             .zip(&strength)
             .zip(&aim)
             .any(|((o, &s), aim)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > 0.0));
-        if !open && (part < 1.0 || !probes.extend(body, &pass, contacts, parts, settings.depth_tolerance * size)) {
+        let missed = !open && probes.extend(body, &pass, contacts, parts, &aim, settings.depth_tolerance * size);
+        if !open && !missed {
+            best = (0.0, strength);
             break;
+        }
+        let score = if missed { f32::INFINITY } else { openness(&outcome, &strength, &aim) };
+        if score < best.0 {
+            best = (score, strength.clone());
         }
         let matrix = influence(body, &pass, contacts, &outcome, &strength);
         let wanted: Vec<f32> = (0..n)
@@ -59,10 +66,29 @@ pub(super) fn solve_pass(
             *strength = strength.min(strongest);
         }
     }
+    let strength = best.1;
     set_strengths(&mut pass, contacts, &strength, body, settings);
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     (pass, strength)
 }
+
+/// How far the contacts are from touching: the worst depth that is left, and to a part the widest gap.
+fn openness(outcome: &[Outcome], strength: &[f32], aim: &[f32]) -> f32 {
+    let of = |((o, &s), aim): ((&Outcome, &f32), &f32)| {
+        let gap = o.gap - aim;
+        if gap < 0.0 {
+            -gap
+        } else if s > 0.0 {
+            GAP_COUNTS * gap
+        } else {
+            0.0
+        }
+    };
+    outcome.iter().zip(strength).zip(aim).map(of).fold(0.0, f32::max)
+}
+
+/// How much a gap counts beside a depth.
+const GAP_COUNTS: f32 = 0.5;
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
 /// one of them then flows towards the next, and the strengths are right for a short way only.
