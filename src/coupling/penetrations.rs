@@ -38,6 +38,8 @@ pub struct Contact {
     pub pierced: bool,
     /// True where the contact's own field pushes; false where the fields of others carry the skin out, and beyond.
     pub held: bool,
+    /// How far the contact's own fields have pushed so far, in metres.
+    pub pushed: f32,
     /// 0 for points that have gone in. A guard's points are outside still, at depths from minus this height to 0: others may
     /// push them in.
     pub guards: f32,
@@ -179,7 +181,12 @@ pub fn add_guards(body: &ElasticBody, parts: &[ObstaclePart], guards: Vec<Contac
                 contacts[at].absorb(body, parts, &guard);
                 let Contact { near, points, .. } = contacts[at].clone();
                 let joined = Contact::guarding(body, near, points, height);
-                contacts[at] = Contact { pierced: contacts[at].pierced, held: contacts[at].held, ..joined };
+                contacts[at] = Contact {
+                    pierced: contacts[at].pierced,
+                    held: contacts[at].held,
+                    pushed: contacts[at].pushed,
+                    ..joined
+                };
             }
             None => contacts.push(guard),
         }
@@ -206,6 +213,9 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
     groups.into_iter().map(|group| Contact::new(body, group.near, group.points)).collect()
 }
 
+/// Skin of a cancelled contact is watched that is farther off than the nearest by at most this part of the size.
+const WATCHED: f32 = 0.03;
+
 /// Cosine between two directions that count as one.
 pub(super) const SAME_WAY: f32 = 0.82;
 
@@ -222,7 +232,7 @@ impl Contact {
         let centre = points.iter().map(|p| out(p) * weigh(p)).sum::<Vec3>() / weight;
         let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * weigh(p)).sum();
         let pierced = points.iter().all(|p| !p.point.is_vertex());
-        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, held: false, guards }
+        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, held: false, pushed: 0.0, guards }
     }
 
     /// Depth of the deepest point, 0 for a guard.
@@ -262,6 +272,28 @@ impl Contact {
         };
         let points: Vec<Penetration> = self.points.iter().filter_map(along).collect();
         if points.is_empty() { self } else { Self::new(body, near, points) }
+    }
+
+    /// The contact after it was cancelled, as a guard of the skin that is nearest to its parts now, and how far that is from
+    /// them. None for a contact that no field of its own has pushed.
+    pub fn watched(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Option<(Self, f32)> {
+        if !self.held {
+            return None;
+        }
+        let distance = |p: &Penetration| parts[p.part].placed.distance(p.point.position(body.positions())).0;
+        let points: Vec<Penetration> = self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
+        let gap = points.iter().map(|p| -p.depth).fold(f32::INFINITY, f32::min);
+        let height = gap + WATCHED * body.skins()[usize::from(self.near.segment)].size;
+        let points: Vec<Penetration> = points.into_iter().filter(|p| -p.depth < height).collect();
+        let near = self.nearest_of(&points);
+        let guard = Self::guarding(body, near, points, height);
+        Some((Self { held: true, pushed: self.pushed, ..guard }, gap))
+    }
+
+    /// The proximity with the part of the nearest of these points.
+    fn nearest_of(&self, points: &[Penetration]) -> Proximity {
+        let nearest = points.iter().max_by(|a, b| a.depth.total_cmp(&b.depth));
+        Proximity { part: nearest.map_or(self.near.part, |p| p.part), ..self.near }
     }
 
     /// True where another contact of the segment, with a part that touches one of this one's, pushes nearly the same way.
