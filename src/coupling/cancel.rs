@@ -168,21 +168,38 @@ fn close_gaps(
         let (pass, strengths) = solve_pass(body, parts, near, &all, &least, softness, size, settings);
         let (before, passes) = (body.positions().to_vec(), body.palette().passes.len());
         body.deform_collision(pass);
-        let piercing = || find_piercings(body, parts, near, tolerance);
-        let worse = !find_contacts(body, parts, near, tolerance).is_empty() || !piercing().is_empty();
+        let mut taken = 1;
+        let mut inside = left_over(body, parts, near, tolerance);
+        if !inside.is_empty() {
+            // What sank in a little between the points that were watched comes out again.
+            let guards = find_guards(body, parts, near, &inside, widest);
+            add_guards(body, parts, guards, &mut inside);
+            let least = vec![0.0; inside.len()];
+            let (pass, _) = solve_pass(body, parts, near, &inside, &least, softness, size, settings);
+            body.deform_collision(pass);
+            taken = 2;
+            inside = left_over(body, parts, near, tolerance);
+        }
         let gap = |contact: &Contact| contact.watched(body, parts).map_or(0.0, |(_, gap)| gap);
         let left = report.contacts.iter().filter(|contact| contact.pushed > 0.0).map(gap).fold(0.0, f32::max);
-        if worse || left >= widest {
+        if !inside.is_empty() || left >= widest {
             body.restore(&before, passes);
             return;
         }
-        report.passes += 1;
+        report.passes += taken;
         for (contact, strength) in all.iter().zip(strengths).filter(|(_, strength)| *strength != 0.0) {
             report.hold(contact, strength);
         }
         // What was taken back altogether is carried by others.
         report.contacts.iter_mut().for_each(|contact| contact.held &= contact.pushed > tolerance);
     }
+}
+
+/// All that is inside: vertices and pierced triangles.
+fn left_over(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
+    let mut contacts = find_contacts(body, parts, near, tolerance);
+    add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
+    contacts
 }
 
 /// Most passes that close gaps.
