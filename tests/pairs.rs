@@ -70,10 +70,10 @@ fn a_heap_of_twenty_soft_balls_comes_to_rest_without_being_seen_in_each_other() 
     let wall = |at: Vec3, half: Vec3| ColliderBuilder::cuboid(half.x, half.y, half.z).translation(at);
     for (at, half) in [
         (Vec3::new(0.0, -1.0, 0.0), Vec3::new(5.0, 1.0, 5.0)),
-        (Vec3::new(2.3, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
-        (Vec3::new(-2.3, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
-        (Vec3::new(0.0, 2.0, 2.3), Vec3::new(5.0, 3.0, 1.0)),
-        (Vec3::new(0.0, 2.0, -2.3), Vec3::new(5.0, 3.0, 1.0)),
+        (Vec3::new(2.7, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
+        (Vec3::new(-2.7, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
+        (Vec3::new(0.0, 2.0, 2.7), Vec3::new(5.0, 3.0, 1.0)),
+        (Vec3::new(0.0, 2.0, -2.7), Vec3::new(5.0, 3.0, 1.0)),
     ] {
         physics.insert_collider(wall(at, half), Some(fixed));
     }
@@ -81,11 +81,11 @@ fn a_heap_of_twenty_soft_balls_comes_to_rest_without_being_seen_in_each_other() 
     let balls: Vec<_> = (0..20)
         .map(|i| {
             let at = Vec3::new(
-                0.55 * ((i % 2) as f32 * 2.0 - 1.0) + 0.05 * (i % 3) as f32,
-                0.6 + 1.05 * (i / 4) as f32,
-                0.55 * (((i / 2) % 2) as f32 * 2.0 - 1.0) - 0.03 * (i % 5) as f32,
+                1.05 * ((i % 3) as f32 - 1.0) + 0.07 * (i / 9) as f32,
+                0.55 + 1.02 * (i / 9) as f32,
+                1.05 * (((i / 3) % 3) as f32 - 1.0) - 0.05 * (i / 9) as f32,
             );
-            ball(&mut physics, &mut deformation, at, SpringCoefficients::new(3.0 + (i % 4) as f32, 0.4))
+            ball(&mut physics, &mut deformation, at, SpringCoefficients::new(5.0 + (i % 4) as f32, 0.4))
         })
         .collect();
     let mut worst: (f32, f32) = (0.0, 0.0);

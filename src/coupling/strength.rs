@@ -102,7 +102,7 @@ fn place_fields(
             let others = contacts.iter().enumerate().filter(|&(i, _)| i != j);
             others.map(|(_, other)| (other.centre, other.near.normal))
         };
-        let gauge = gauge_point(contact.centre, others());
+        let gauge = gauge_point(contact.centre, others(), body.skins()[usize::from(contact.near.segment)].size);
         let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
@@ -197,6 +197,21 @@ fn bound_of_sum(fields: &[SegmentField]) -> f32 {
     balls.iter().map(around).fold(0.0, f32::max)
 }
 
+/// Fields that push a contact deeper are made up for by a stronger one, which pushes back in turn: that ends only where all
+/// of them together do less than the contact's own field.
+fn tame(row: &mut [f32], own: usize) {
+    row[own] = row[own].max(0.0);
+    let against: f32 = row.iter().filter(|share| **share < 0.0).sum();
+    let most = -TAMED * row[own];
+    if against < most {
+        let factor = most / against;
+        row.iter_mut().filter(|share| **share < 0.0).for_each(|share| *share *= factor);
+    }
+}
+
+/// The part of a contact's own field that the others may undo.
+const TAMED: f32 = 0.7;
+
 /// `A[i][j]`: how far field `j` of unit strength moves the deciding vertex of contact `i` along its direction, from the
 /// velocities halfway.
 fn influence(
@@ -222,10 +237,9 @@ fn influence(
             let probe = HuggingField { d: contacts[j].near.normal * unit, ..field.clone() };
             let halfway = x + contact.near.normal * (0.5 * strength[i]);
             let share = weight * probe.velocity(halfway, 0.5).dot(contact.near.normal) / unit;
-            // A field that pushes another contact deeper is not made up for by a stronger one, which would push back in
-            // turn: the next pass sees what is left.
-            matrix[i * n + j] = share.max(0.0);
+            matrix[i * n + j] = share;
         }
+        tame(&mut matrix[i * n..(i + 1) * n], i);
     }
     matrix
 }
