@@ -108,9 +108,12 @@ pub fn cancel(
         let height = contacts.iter().map(Contact::depth).fold(0.0, f32::max).min(GUARD_HEIGHT * size);
         let guards = find_guards(body, parts, near, &contacts, height);
         let all: Vec<Contact> = contacts.iter().cloned().chain(guards).collect();
-        let pass = solve_pass(body, parts, near, &all, reach, size, settings);
+        let (pass, strengths) = solve_pass(body, parts, near, &all, reach, size, settings);
         if report.passes == 0 {
             report.contacts = contacts;
+        }
+        for (contact, _) in all.iter().zip(strengths).filter(|(_, strength)| *strength > 0.0) {
+            report.hold(contact);
         }
         report.passes += 1;
         body.deform_collision(pass);
@@ -120,6 +123,16 @@ pub fn cancel(
         (report.passes, report.left) = (best.passes, best.worst);
     }
     report
+}
+
+impl CancelReport {
+    /// Notes that a contact's own field pushes.
+    fn hold(&mut self, pushing: &Contact) {
+        let parts = pushing.parts();
+        for contact in &mut self.contacts {
+            contact.held |= contact.near.segment == pushing.near.segment && !contact.parts().is_disjoint(&parts);
+        }
+    }
 }
 
 /// The best state so far.
@@ -146,6 +159,7 @@ fn literal(
     }
     let pass = super::literal::place(body, parts, near, settings.softness.unwrap_or(body.rig().softness));
     body.deform_collision(pass);
+    let contacts = contacts.into_iter().map(|contact| Contact { held: true, ..contact }).collect();
     CancelReport { contacts, passes: 1, left: 0.0 }
 }
 

@@ -22,8 +22,12 @@ pub struct PenetrationFigures {
     pub max_depth_after: f32,
     /// Largest depth of any point of a triangle after it; depths below [`PIERCING_RESOLUTION`] are not looked for.
     pub max_piercing: f32,
-    /// Largest distance left between the skin of a contact and the obstacle that it had penetrated.
+    /// Largest distance left between the skin of a contact that is pushed by a field of its own and the obstacle that it had
+    /// penetrated.
     pub max_gap: f32,
+    /// Largest distance to which skin was carried off an obstacle by the fields of other contacts: such a contact needs no
+    /// push of its own.
+    pub max_lift: f32,
     /// Vertices deeper than [`INSIDE`] after it.
     pub vertices_inside: u32,
     /// True where the penetration is beyond what cancellation can do: a vertex is left deeper than [`INSIDE`], or a
@@ -49,12 +53,18 @@ pub fn measure(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &C
     let deepest = depths.iter().copied().fold(0.0, f32::max);
     let vertices_inside = depths.iter().filter(|&&depth| depth > INSIDE * size).count() as u32;
     let piercing = deepest_triangle(body, parts, PIERCING_RESOLUTION * size).max(deepest) / size;
-    let max_gap = gaps(body, parts, size, report).into_iter().fold(0.0, f32::max);
+    let gaps = gaps(body, parts, size, report);
+    let largest = |held: bool| {
+        let of = report.contacts.iter().zip(&gaps).filter(|(contact, _)| contact.held == held);
+        of.map(|(_, gap)| *gap).fold(0.0, f32::max)
+    };
+    let max_gap = largest(true);
     PenetrationFigures {
         max_depth_before: report.contacts.iter().map(Contact::depth).fold(0.0, f32::max) / size,
         max_depth_after: deepest / size,
         max_piercing: piercing,
         max_gap: max_gap / size,
+        max_lift: largest(false) / size,
         vertices_inside,
         uncancelled: vertices_inside > 0 || piercing > PIERCED,
         coherence: TimeCoherence::default(),

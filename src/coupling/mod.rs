@@ -29,7 +29,7 @@ pub use obstacle::{
 };
 pub use pairs::{
     HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
-    segment_bounds,
+    segment_bounds, self_pairs,
 };
 pub use penetrations::{Contact, Penetration, find_contacts, find_guards, find_piercings};
 pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};

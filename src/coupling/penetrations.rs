@@ -36,6 +36,8 @@ pub struct Contact {
     pub radius: f32,
     /// True where the points lie within triangles, whose corners are outside.
     pub pierced: bool,
+    /// True where the contact's own field pushes; false where the fields of others carry the skin out, and beyond.
+    pub held: bool,
     /// 0 for points that have gone in. A guard's points are outside still, at depths from minus this height to 0: others may
     /// push them in.
     pub guards: f32,
@@ -212,7 +214,7 @@ impl Contact {
         let centre = points.iter().map(|p| out(p) * weigh(p)).sum::<Vec3>() / weight;
         let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * weigh(p)).sum();
         let pierced = points.iter().all(|p| !p.point.is_vertex());
-        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, guards }
+        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, held: false, guards }
     }
 
     /// Depth of the deepest point, 0 for a guard.

@@ -13,7 +13,7 @@ use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField, S
 use crate::field::{HuggingField, Lipschitz, Patch, usual_steps};
 use crate::math::{Pose, Vec3};
 
-/// The fields of one pass, their strengths solved so that every contact ends touching.
+/// The fields of one pass, and their strengths, solved so that every contact ends touching or needs no push of its own.
 pub(super) fn solve_pass(
     body: &ElasticBody,
     parts: &[ObstaclePart],
@@ -22,7 +22,7 @@ pub(super) fn solve_pass(
     softness: f32,
     size: f32,
     settings: &CancelSettings,
-) -> CollisionPass {
+) -> (CollisionPass, Vec<f32>) {
     let n = contacts.len();
     let mut pass = CollisionPass { fields: place_fields(body, parts, near, contacts, softness), steps: 1 };
     let mut strength: Vec<f32> = contacts.iter().map(Contact::depth).collect();
@@ -61,7 +61,7 @@ pub(super) fn solve_pass(
     }
     set_strengths(&mut pass, contacts, &strength, body, settings);
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
-    pass
+    (pass, strength)
 }
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of

@@ -10,6 +10,7 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
+use crate::coupling::self_pairs;
 use crate::coupling::{
     CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
     PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
@@ -108,6 +109,8 @@ pub(super) struct Entry {
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
     pub memories: ContactMemories,
+    /// Segments of the body that may touch each other.
+    pub self_pairs: Arc<BTreeSet<(usize, usize)>>,
     /// For the measurement of the time coherence.
     pub coherence: CoherenceMemory,
     /// False until the body has been placed on its rigid bodies.
@@ -194,6 +197,11 @@ impl DeformationWorld {
         groups: InteractionGroups,
         placed: bool,
     ) -> ElasticBodyHandle {
+        let mut known = self.entries.iter().filter(|(_, entry)| Arc::ptr_eq(entry.body.rig(), body.rig()));
+        let self_pairs = match known.next() {
+            Some((_, entry)) => entry.self_pairs.clone(),
+            None => Arc::new(self_pairs(&ElasticBody::new(body.rig().clone()))),
+        };
         self.own.extend(ragdoll.bodies.iter().map(|handle| handle.into_raw_parts()));
         let rig = body.rig().clone();
         let entry = Entry {
@@ -203,6 +211,7 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            self_pairs,
             coherence: CoherenceMemory::default(),
             placed,
             last: None,

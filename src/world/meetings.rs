@@ -32,7 +32,13 @@ impl DeformationWorld {
             return Vec::new();
         }
         let bodies: Vec<&ElasticBody> = entries.iter().map(|entry| &entry.body).collect();
-        let mut pairs = pairs_of(&bodies, |a, b| entries[a].groups.test(entries[b].groups));
+        let mut pairs = pairs_of(&bodies, |a, b| {
+            if a.body == b.body {
+                entries[a.body].self_pairs.contains(&(a.segment, b.segment))
+            } else {
+                entries[a.body].groups.test(entries[b.body].groups)
+            }
+        });
         for pair in &mut pairs {
             pair.a.body = there[pair.a.body];
             pair.b.body = there[pair.b.body];
@@ -105,7 +111,7 @@ impl DeformationWorld {
                 continue;
             }
             let share = self.share(encounters, &pair);
-            let Some(skins) = self.skins_of(encounters, &pair) else { continue };
+            let skins = self.skins_of(encounters, &pair);
             let Some(interface) = Interface::of(&overlap, skins, pair.normal, pair.along, share) else { continue };
             for (side, at) in [pair.a, pair.b].into_iter().enumerate() {
                 let first = side == 0;
@@ -124,16 +130,12 @@ impl DeformationWorld {
         touched
     }
 
+    /// The two skins of a pair; none where they belong to one body.
     fn skins_of(&self, encounters: &[Encounter], pair: &SegmentPair) -> Option<[SkinSide<'_>; 2]> {
         let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
-        fn side(body: &ElasticBody, segment: usize) -> SkinSide<'_> {
-            SkinSide {
-                skin: &body.skins()[segment],
-                triangles: &body.rig().mesh.triangles,
-                positions: body.positions(),
-            }
-        }
-        Some([side(a, pair.a.segment), side(b, pair.b.segment)])
+        let whole =
+            [SkinSide::whole(a, pair.a.segment, a.positions()), SkinSide::whole(b, pair.b.segment, b.positions())];
+        (pair.a.body != pair.b.body).then_some(whole)
     }
 
     /// Notes how deep skins are still in each other.
@@ -163,9 +165,11 @@ impl DeformationWorld {
 
     fn overlap(&self, encounters: &[Encounter], pair: &SegmentPair, x: &[Vec3], y: &[Vec3]) -> Option<Overlap> {
         let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
-        let (triangles_a, triangles_b) = (&a.rig().mesh.triangles, &b.rig().mesh.triangles);
-        let first = SkinSide { skin: &a.skins()[pair.a.segment], triangles: triangles_a, positions: x };
-        let second = SkinSide { skin: &b.skins()[pair.b.segment], triangles: triangles_b, positions: y };
+        let side = match pair.a.body == pair.b.body {
+            true => SkinSide::inner,
+            false => SkinSide::whole,
+        };
+        let (first, second) = (side(a, pair.a.segment, x), side(b, pair.b.segment, y));
         Some(Overlap::between(first, second, pair.normal, pair.along.unwrap_or(Vec3::ZERO)))
     }
 

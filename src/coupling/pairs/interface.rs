@@ -33,11 +33,11 @@ pub struct Shadow {
 }
 
 impl Shadow {
-    fn of(side: &SkinSide<'_>, frame: Mat3) -> Self {
+    fn of(points: impl Iterator<Item = Vec3>, frame: Mat3) -> Self {
         let turned = frame.transpose();
         let (mut from, mut to) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        for &v in &side.skin.vertices {
-            let x = turned * side.positions[v as usize];
+        for x in points {
+            let x = turned * x;
             (from, to) = (from.min(x), to.max(x));
         }
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
@@ -52,7 +52,7 @@ impl Interface {
     /// None where nothing overlaps.
     pub fn of(
         overlap: &Overlap,
-        skins: [SkinSide<'_>; 2],
+        skins: Option<[SkinSide<'_>; 2]>,
         normal: Vec3,
         along: Option<Vec3>,
         share: f32,
@@ -63,7 +63,12 @@ impl Interface {
         let frame = frame_of(normal, along.unwrap_or(Vec3::ZERO));
         let (low, high) = overlap.heights(normal);
         let height = low + (high - low) * share;
-        let shadows = skins.map(|side| Shadow::of(&side, frame));
+        let shadows = match skins {
+            Some(skins) => {
+                skins.map(|side| Shadow::of(side.vertices.iter().map(|&v| side.positions[v as usize]), frame))
+            }
+            None => [Shadow::of(overlap.a.iter().chain(&overlap.b).map(|p| p.position), frame); 2],
+        };
         Some(Self { frame, height, reach: [height - low, high - height], shadows, round: along.is_none() })
     }
 }
