@@ -38,6 +38,8 @@ pub struct Contact {
     pub pierced: bool,
     /// True where the contact's own field pushes; false where the fields of others carry the skin out, and beyond.
     pub held: bool,
+    /// How far the contact's own fields have pushed so far, in metres.
+    pub pushed: f32,
     /// 0 for points that have gone in. A guard's points are outside still, at depths from minus this height to 0: others may
     /// push them in.
     pub guards: f32,
@@ -158,17 +160,35 @@ const BEFORE: f32 = 0.5;
 /// Adds contacts of pierced triangles to those of vertices: points of the same segment and part that go the same way make one.
 pub fn add_piercings(body: &ElasticBody, parts: &[ObstaclePart], pierced: Vec<Contact>, contacts: &mut Vec<Contact>) {
     for piercing in pierced {
-        let same = |contact: &&mut Contact| {
-            let (a, b) = (&contact.near, &piercing.near);
-            a.segment == b.segment && a.part == b.part && a.normal.dot(b.normal) > SAME_WAY
-        };
-        match contacts.iter_mut().find(same) {
+        match contacts.iter_mut().find(|contact| contact.goes_with(&piercing, parts)) {
             Some(contact) => {
                 contact.absorb(body, parts, &piercing);
                 let Contact { near, points, .. } = contact.clone();
                 *contact = Contact::new(body, near, points);
             }
             None => contacts.push(piercing),
+        }
+    }
+}
+
+/// Adds guards to contacts: those that go the same way as a contact watch over its neighbourhood, the others stand by
+/// themselves.
+pub fn add_guards(body: &ElasticBody, parts: &[ObstaclePart], guards: Vec<Contact>, contacts: &mut Vec<Contact>) {
+    for guard in guards {
+        match contacts.iter_mut().position(|contact| contact.goes_with(&guard, parts)) {
+            Some(at) => {
+                let height = contacts[at].guards;
+                contacts[at].absorb(body, parts, &guard);
+                let Contact { near, points, .. } = contacts[at].clone();
+                let joined = Contact::guarding(body, near, points, height);
+                contacts[at] = Contact {
+                    pierced: contacts[at].pierced,
+                    held: contacts[at].held,
+                    pushed: contacts[at].pushed,
+                    ..joined
+                };
+            }
+            None => contacts.push(guard),
         }
     }
 }
@@ -185,18 +205,16 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
     contacts.sort_by(|a, b| b.depth().total_cmp(&a.depth()).then(a.near.part.cmp(&b.near.part)));
     let mut groups: Vec<Contact> = Vec::new();
     for contact in contacts {
-        let joins = |group: &&mut Contact| {
-            group.near.segment == contact.near.segment
-                && group.near.normal.dot(contact.near.normal) > SAME_WAY
-                && group.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[contact.near.part].aabb))
-        };
-        match groups.iter_mut().find(joins) {
+        match groups.iter_mut().find(|group| group.goes_with(&contact, parts)) {
             Some(group) => group.absorb(body, parts, &contact),
             None => groups.push(contact),
         }
     }
     groups.into_iter().map(|group| Contact::new(body, group.near, group.points)).collect()
 }
+
+/// Skin of a cancelled contact is watched that is farther off than the nearest by at most this part of the size.
+const WATCHED: f32 = 0.03;
 
 /// Cosine between two directions that count as one.
 pub(super) const SAME_WAY: f32 = 0.82;
@@ -214,7 +232,7 @@ impl Contact {
         let centre = points.iter().map(|p| out(p) * weigh(p)).sum::<Vec3>() / weight;
         let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * weigh(p)).sum();
         let pierced = points.iter().all(|p| !p.point.is_vertex());
-        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, held: false, guards }
+        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, held: false, pushed: 0.0, guards }
     }
 
     /// Depth of the deepest point, 0 for a guard.
@@ -256,6 +274,35 @@ impl Contact {
         if points.is_empty() { self } else { Self::new(body, near, points) }
     }
 
+    /// The contact after it was cancelled, as a guard of the skin that is nearest to its parts now, and how far that is from
+    /// them. None for a contact that no field of its own has pushed.
+    pub fn watched(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Option<(Self, f32)> {
+        if !self.held {
+            return None;
+        }
+        let distance = |p: &Penetration| parts[p.part].placed.distance(p.point.position(body.positions())).0;
+        let points: Vec<Penetration> = self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
+        let gap = points.iter().map(|p| -p.depth).fold(f32::INFINITY, f32::min);
+        let height = gap + WATCHED * body.skins()[usize::from(self.near.segment)].size;
+        let points: Vec<Penetration> = points.into_iter().filter(|p| -p.depth < height).collect();
+        let near = self.nearest_of(&points);
+        let guard = Self::guarding(body, near, points, height);
+        Some((Self { held: true, pushed: self.pushed, ..guard }, gap))
+    }
+
+    /// The proximity with the part of the nearest of these points.
+    fn nearest_of(&self, points: &[Penetration]) -> Proximity {
+        let nearest = points.iter().max_by(|a, b| a.depth.total_cmp(&b.depth));
+        Proximity { part: nearest.map_or(self.near.part, |p| p.part), ..self.near }
+    }
+
+    /// True where another contact of the segment, with a part that touches one of this one's, pushes nearly the same way.
+    fn goes_with(&self, other: &Contact, parts: &[ObstaclePart]) -> bool {
+        self.near.segment == other.near.segment
+            && self.near.normal.dot(other.near.normal) > SAME_WAY
+            && self.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[other.near.part].aabb))
+    }
+
     /// Takes over the points of another contact, with their depths along this one's direction.
     fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
         let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;
@@ -263,7 +310,10 @@ impl Contact {
             self.points.iter().enumerate().map(|(i, p)| (p.point.vertices, i)).collect();
         for p in &other.points {
             let x = p.point.position(body.positions());
-            let depth = parts[p.part].exit(x, self.near.normal, reach).unwrap_or(p.depth);
+            // Beside a flank the common way may be long: then the point's own depth tells how much is asked of it.
+            let reach = if p.point.is_vertex() { reach } else { ASKEW * p.depth };
+            let depth =
+                parts[p.part].exit(x, self.near.normal, reach).filter(|depth| *depth < reach).unwrap_or(p.depth);
             match places.get(&p.point.vertices).map(|&i| &mut self.points[i]) {
                 Some(own) if own.depth >= depth => {}
                 Some(own) => *own = Penetration { depth, ..*p },

@@ -14,11 +14,14 @@ use crate::field::{HuggingField, Lipschitz, Patch, usual_steps};
 use crate::math::{Pose, Vec3};
 
 /// The fields of one pass, and their strengths, solved so that every contact ends touching or needs no push of its own.
+///
+/// `least` are the least strengths: 0, or minus what the contact's own fields have pushed before, which may be taken back.
 pub(super) fn solve_pass(
     body: &ElasticBody,
     parts: &[ObstaclePart],
     near: &[Proximity],
     contacts: &[Contact],
+    least: &[f32],
     softness: f32,
     size: f32,
     settings: &CancelSettings,
@@ -34,8 +37,10 @@ pub(super) fn solve_pass(
     strength.iter_mut().for_each(|strength| *strength *= part);
     let gap_tolerance = settings.gap_tolerance * size;
     let slack = 0.5 * settings.depth_tolerance * size;
-    let strongest = STRONGEST * contacts.iter().map(Contact::depth).fold(0.0, f32::max);
+    let deepest = contacts.iter().map(Contact::depth).chain(least.iter().map(|least| -least)).fold(0.0, f32::max);
+    let strongest = STRONGEST * deepest;
     let mut probes = Probes::new(contacts);
+    let mut best = (f32::INFINITY, strength.clone());
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
         let outcome = probes.outcomes(body, &pass, contacts, parts);
@@ -43,9 +48,16 @@ pub(super) fn solve_pass(
             .iter()
             .zip(&strength)
             .zip(&aim)
-            .any(|((o, &s), aim)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > 0.0));
-        if !open && (part < 1.0 || !probes.extend(body, &pass, contacts, parts, settings.depth_tolerance * size)) {
+            .zip(least)
+            .any(|(((o, s), aim), least)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > least));
+        let missed = !open && probes.extend(body, &pass, contacts, parts, &aim, settings.depth_tolerance * size);
+        if !open && !missed {
+            best = (0.0, strength);
             break;
+        }
+        let score = if missed { f32::INFINITY } else { openness(&outcome, &strength, &aim, least) };
+        if score < best.0 {
+            best = (score, strength.clone());
         }
         let matrix = influence(body, &pass, contacts, &outcome, &strength);
         let wanted: Vec<f32> = (0..n)
@@ -54,15 +66,34 @@ pub(super) fn solve_pass(
                 row.iter().zip(&strength).map(|(a, s)| a * s).sum::<f32>() + aim[i] - outcome[i].gap
             })
             .collect();
-        complementarity(&matrix, &wanted, &mut strength);
+        complementarity(&matrix, &wanted, least, &mut strength);
         for strength in &mut strength {
             *strength = strength.min(strongest);
         }
     }
+    let strength = best.1;
     set_strengths(&mut pass, contacts, &strength, body, settings);
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     (pass, strength)
 }
+
+/// How far the contacts are from touching: the worst depth that is left, and to a part the widest gap.
+fn openness(outcome: &[Outcome], strength: &[f32], aim: &[f32], least: &[f32]) -> f32 {
+    let of = |(((o, s), aim), least): (((&Outcome, &f32), &f32), &f32)| {
+        let gap = o.gap - aim;
+        if gap < 0.0 {
+            -gap
+        } else if s > least {
+            GAP_COUNTS * gap
+        } else {
+            0.0
+        }
+    };
+    outcome.iter().zip(strength).zip(aim).zip(least).map(of).fold(0.0, f32::max)
+}
+
+/// How much a gap counts beside a depth.
+const GAP_COUNTS: f32 = 0.5;
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
 /// one of them then flows towards the next, and the strengths are right for a short way only.
