@@ -5,6 +5,8 @@
 
 #[path = "penetration_cancellation/figures.rs"]
 mod figures;
+#[path = "common/icosphere.rs"]
+mod icosphere;
 #[path = "penetration_cancellation/kinds.rs"]
 mod kinds;
 #[path = "penetration_cancellation/poses.rs"]

@@ -1,6 +1,7 @@
 //! What is pushed into bodies: obstacles of every kind, of random proportions, as rapier and as a scene file know them.
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use fastrand::Rng;
 use pliant::math::{Pose, Vec3};
@@ -8,6 +9,7 @@ use rapier3d::geometry::SharedShape;
 use rapier3d::parry::shape::HalfSpace;
 use rapier3d::parry::utils::Array2;
 
+use crate::icosphere::icosphere;
 use crate::random::{between, in_cube};
 use crate::scene_file::RawShape;
 
@@ -100,16 +102,15 @@ impl Shape {
         Self { shared: SharedShape::heightfield(heights, Vec3::new(side, 1.0, side)), raw }
     }
 
-    /// The surface of a shipped mesh, `radius` from its middle to its farthest point.
-    fn triangle_mesh(radius: f32) -> Self {
-        let file = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/meshes/rock.obj"));
-        let mesh = pliant::mesh::load_obj(&file).expect("a shipped mesh");
-        let scale = radius / mesh.size();
-        let positions = mesh.positions.iter().map(|x| *x * scale).collect();
-        let shared = SharedShape::trimesh(positions, mesh.triangles.clone()).expect("triangles");
+    /// The surface of a lump, about `radius` from its middle.
+    fn triangle_mesh(rng: &mut Rng, radius: f32) -> Self {
+        let lumps = lumps();
+        let (file, points, triangles) = &lumps[rng.usize(..lumps.len())];
+        let positions = points.iter().map(|x| *x * radius).collect();
+        let shared = SharedShape::trimesh(positions, triangles.clone()).expect("triangles");
         let raw = RawShape {
-            file: Some(file),
-            scale: Some(scale),
+            file: Some(file.clone()),
+            scale: Some(radius),
             one_sided: Some(true),
             ..RawShape::of_kind("triangle_mesh")
         };
@@ -130,6 +131,28 @@ impl Shape {
         let raw = RawShape { voxel_size: Some(cell), cells: Some(cells), ..RawShape::of_kind("voxels") };
         Self { shared: SharedShape::voxels(Vec3::splat(cell), &grid), raw }
     }
+}
+
+/// A mesh of the tests: its file, points and triangles.
+type Lump = (PathBuf, Vec<Vec3>, Vec<[u32; 3]>);
+
+/// Spheres of 80 triangles with hills and hollows, written as files for the scenes.
+fn lumps() -> &'static [Lump] {
+    static LUMPS: OnceLock<Vec<Lump>> = OnceLock::new();
+    LUMPS.get_or_init(|| {
+        let lump = |number: u64| {
+            let mut rng = Rng::with_seed(number);
+            let (mut points, triangles) = icosphere(1);
+            points.iter_mut().for_each(|x| *x *= between(&mut rng, 0.75, 1.1));
+            let file = PathBuf::from(format!("{}/lump_{number}.obj", env!("CARGO_TARGET_TMPDIR")));
+            let mut text = String::new();
+            points.iter().for_each(|x| text += &format!("v {} {} {}\n", x.x, x.y, x.z));
+            triangles.iter().for_each(|t| text += &format!("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1));
+            std::fs::write(&file, text).expect("the tests' folder can be written");
+            (file, points, triangles)
+        };
+        (0..8).map(lump).collect()
+    })
 }
 
 impl Kind {
@@ -172,7 +195,10 @@ impl Kind {
                 let height = length(rng, 0.0, 0.6);
                 Shape::heightfield(rng, 6.0 * size, height)
             }
-            Self::TriangleMesh => Shape::triangle_mesh(length(rng, 0.4, 1.5)),
+            Self::TriangleMesh => {
+                let radius = length(rng, 0.4, 1.2);
+                Shape::triangle_mesh(rng, radius)
+            }
             Self::Voxels => Shape::voxels(rng, 0.25 * size),
         }
     }

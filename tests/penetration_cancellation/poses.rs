@@ -12,7 +12,7 @@ use pliant::elastic::{ElasticBody, ElasticRig, SegmentShape, load_rig};
 use pliant::field::PartShape;
 use pliant::math::{Pose, Quat, Vec3};
 use rapier3d::geometry::{ColliderHandle, SharedShape};
-use rapier3d::parry::bounding_volume::Aabb;
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 
 use crate::kinds::{Kind, Placed};
 use crate::random::{between, direction, rotation};
@@ -41,12 +41,13 @@ impl Subject {
         self.template.skins().len() == 1
     }
 
-    /// How far the obstacles are from the solid cores and links; not above zero where one is inside.
+    /// How far the obstacles are from the solid cores and links, if they are close; not above zero where one is inside.
     fn clearance(&self, turn: &Pose, parts: &[ObstaclePart]) -> f32 {
         let clearance = |(axis, radius): &([Vec3; 2], f32)| {
             let axis = axis.map(|x| turn.transform_point(x));
-            let distance = |part| distance_of_axis(part, axis) - radius;
-            parts.iter().map(distance).fold(f32::INFINITY, f32::min)
+            let around = Aabb::new(axis[0].min(axis[1]) - *radius, axis[0].max(axis[1]) + *radius);
+            let close = parts.iter().filter(|part| part.aabb.intersects(&around));
+            close.map(|part| distance_of_axis(part, axis) - radius).fold(f32::INFINITY, f32::min)
         };
         self.cores.iter().map(clearance).fold(f32::INFINITY, f32::min)
     }

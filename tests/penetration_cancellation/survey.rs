@@ -24,7 +24,7 @@ fn cases() -> u64 {
     match std::env::var("PLIANT_SUITE") {
         Ok(suite) if suite == "full" => 1000,
         Ok(suite) => suite.parse().expect("PLIANT_SUITE is a number of poses, or `full`"),
-        Err(_) => 60,
+        Err(_) => 200,
     }
 }
 

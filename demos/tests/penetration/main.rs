@@ -100,3 +100,26 @@ fn one_two_and_four_threads_give_the_same_bits_in_every_scene() {
         println!("{name}: the same bits in {steps} steps");
     }
 }
+
+#[test]
+fn a_held_body_stays_where_it_is_and_is_shown_without_its_penetration() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("held.toml");
+    let rig = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/rigs/ball.toml");
+    let text = format!(
+        "name = \"held\"\nduration = 1.0\ncamera = {{ eye = [0, 1, 4], target = [0, 0, 0] }}\n\
+         [[body]]\nname = \"ball\"\nrig = '{rig}'\nposition = [0.0, 0.4, 0.0]\nheld = true\n\
+         [[obstacle]]\nshape = {{ kind = \"half_space\" }}\n"
+    );
+    std::fs::write(&path, text).expect("a file");
+    let mut simulation = Simulation::new(load_scene(&path).expect("a scene"), 0).expect("a world");
+    for _ in 0..30 {
+        simulation.step();
+    }
+    let actor = &simulation.actors[0];
+    let body = simulation.deformation.get(actor.handle).expect("it is there");
+    assert_eq!(body.motions()[0].translation.to_array(), [0.0, 0.4, 0.0]);
+    let penetration = simulation.report(actor).penetration;
+    // A ball of radius 0.5 m, 0.1 m deep.
+    assert!((penetration.max_depth_before - 0.2).abs() < 0.01 && !penetration.uncancelled, "{penetration:?}");
+}

@@ -42,6 +42,8 @@ pub struct WorstFigures {
     pub piercing: Worst,
     /// Gap at a contact.
     pub gap: Worst,
+    /// Overlap of two elastic skins.
+    pub pairs: Worst,
     /// Time coherence.
     pub coherence: Worst,
     /// Volume ratio, least and largest.
@@ -64,6 +66,7 @@ impl WorstFigures {
         self.depth.see(figures.max_depth_after, &place);
         self.piercing.see(figures.max_piercing, &place);
         self.gap.see(figures.max_gap, &place);
+        self.pairs.see(report.max_pair_depth, &place);
         let coherence = &figures.coherence;
         let change = format!(
             "{place}: vertex {} changed by {:.4}, motion {:.4}, {} passes",
@@ -78,6 +81,7 @@ impl WorstFigures {
         let fits = figures.max_depth_after <= INSIDE
             && figures.max_piercing <= PIERCED
             && figures.max_gap <= GAP
+            && report.max_pair_depth <= PAIRS
             && coherence.ratio <= SMOOTH
             && report.frozen.is_none();
         self.bad += u32::from(!fits);
@@ -97,6 +101,7 @@ impl WorstFigures {
         holds("depth", &self.depth, INSIDE);
         holds("piercing", &self.piercing, PIERCED);
         holds("gap", &self.gap, GAP);
+        holds("overlap of skins", &self.pairs, PAIRS);
         holds("time coherence", &self.coherence, SMOOTH);
         if self.many_passes as f32 > MANY_PASSES * self.cancelled as f32 {
             faults.push(format!("more than 4 passes in {} of {} frames", self.many_passes, self.cancelled));
@@ -109,6 +114,9 @@ impl WorstFigures {
 /// Widest gap that may be left at a contact, as a fraction of the body's size.
 const GAP: f32 = 5.0e-3;
 
+/// Deepest overlap of two elastic skins that may be left, as a fraction of the body's size.
+const PAIRS: f32 = 5.0e-3;
+
 /// The share of cancellations that may take more than four passes.
 const MANY_PASSES: f32 = 0.01;
 
@@ -116,13 +124,14 @@ impl fmt::Display for WorstFigures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} rows, {} bad, before {:.3}, depth {:.4}, piercing {:.4}, gap {:.4}, coherence {:.1}, volume {:.3} to {:.3}, passes at most {}, above 4 in {} of {}",
+            "{} rows, {} bad, before {:.3}, depth {:.4}, piercing {:.4}, gap {:.4}, skins {:.4}, coherence {:.1}, volume {:.3} to {:.3}, passes at most {}, above 4 in {} of {}",
             self.rows,
             self.bad,
             self.before.value,
             self.depth.value,
             self.piercing.value,
             self.gap.value,
+            self.pairs.value,
             self.coherence.value,
             self.volume[0],
             self.volume[1],
