@@ -24,7 +24,7 @@ fn cases() -> u64 {
     match std::env::var("PLIANT_SUITE") {
         Ok(suite) if suite == "full" => 1000,
         Ok(suite) => suite.parse().expect("PLIANT_SUITE is a number of poses, or `full`"),
-        Err(_) => 200,
+        Err(_) => 40,
     }
 }
 
@@ -86,6 +86,13 @@ pub fn survey_with(subject: &Subject, kind: Kind, limits: &Limits, settings: &Ca
 }
 
 impl Survey {
+    /// True where more poses than these shares fail a limit, or take more than four passes.
+    pub fn exceeds(&self, (bad, many): (f32, f32)) -> bool {
+        let count = self.figures.len() as f32;
+        let passes = self.figures.iter().filter(|(_, figures)| figures.passes > 4).count();
+        self.bad as f32 > bad * count || passes as f32 > many * count
+    }
+
     /// The cells of a table: share of poses in which all holds, worst depth, piercing, gap and change of volume in
     /// percent, most passes, poses with folded triangles.
     pub fn cells(&self) -> String {
