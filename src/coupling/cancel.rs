@@ -151,7 +151,7 @@ fn close_gaps(
     settings: &CancelSettings,
     report: &mut CancelReport,
 ) {
-    let (tolerance, close) = (settings.depth_tolerance * size, settings.gap_tolerance * size);
+    let (tolerance, close) = (settings.depth_tolerance * size, WORTH_CLOSING * settings.gap_tolerance * size);
     let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
     for _ in 0..CLOSING_PASSES {
         let watched: Vec<(Contact, f32)> =
@@ -201,6 +201,9 @@ fn left_over(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tol
     add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
     contacts
 }
+
+/// Gaps are closed from this many tolerances on.
+const WORTH_CLOSING: f32 = 2.0;
 
 /// Most passes that close gaps.
 const CLOSING_PASSES: u32 = 2;
