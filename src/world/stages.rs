@@ -189,7 +189,8 @@ impl DeformationWorld {
             };
             if self.settings.measure && encounter.frozen.is_none() {
                 let Encounter { parts, obstacles, cancelled, .. } = &mut encounter;
-                cancelled.contacts.retain(|contact| contact.near.part < *obstacles);
+                // Contacts that lead out of another skin too are judged by the overlap of the skins.
+                cancelled.contacts.retain(|contact| contact.points.iter().all(|point| point.part < *obstacles));
                 figures.penetration = measure(&entry.body, &parts[..*obstacles], entry.size, cancelled);
                 figures.penetration.coherence = encounter.coherence;
                 figures.max_pair_depth = encounter.pair_depth / entry.size;

@@ -14,7 +14,7 @@ use pliant_demos::scene::{find_scene, load_scene, scene_names};
 use pliant_demos::simulation::Simulation;
 use rayon::prelude::*;
 use threads::fingerprints;
-use worst::WorstFigures;
+use worst::{Limits, WorstFigures};
 
 fn full() -> bool {
     std::env::var("PLIANT_SUITE").is_ok_and(|suite| suite == "full")
@@ -60,7 +60,8 @@ fn in_no_frame_of_a_shipped_scene_is_an_obstacle_seen_in_a_body_and_nothing_pops
     let run = |name: String| {
         let worst = run(find_scene(&name).expect("a scene"), 0, frames);
         println!("{name}: {worst}");
-        worst.faults().into_iter().map(move |fault| format!("{name}: {fault} (pliant run {name})"))
+        let faults = worst.faults(&Limits::of(&name));
+        faults.into_iter().map(move |fault| format!("{name}: {fault} (pliant run {name})"))
     };
     let faults: Vec<String> = scenes().into_par_iter().flat_map_iter(run).collect();
     assert!(faults.is_empty(), "\n{}", faults.join("\n"));
@@ -73,7 +74,10 @@ fn random_starts_of_the_tower_hold_too() {
     let run = |seed| {
         let worst = run(find_scene("tower").expect("a scene"), seed, frames);
         println!("tower, seed {seed}: {worst}");
-        worst.faults().into_iter().map(move |fault| format!("seed {seed}: {fault} (pliant run tower --seed {seed})"))
+        worst
+            .faults(&Limits::of("tower"))
+            .into_iter()
+            .map(move |fault| format!("seed {seed}: {fault} (pliant run tower --seed {seed})"))
     };
     let faults: Vec<String> = (1..=starts).into_par_iter().flat_map_iter(run).collect();
     assert!(faults.is_empty(), "\n{}", faults.join("\n"));
