@@ -1,4 +1,5 @@
-//! Triangle meshes: what a skin is at rest, how it is read, written, measured and judged.
+//! Triangle meshes, what a skin is at rest, and tetrahedral meshes, what a body is: how they are read, written, measured and
+//! judged.
 
 mod atomic_file;
 mod error;
@@ -8,6 +9,8 @@ mod obj_read;
 mod obj_scan;
 mod obj_write;
 mod polygon;
+mod tetrahedral_error;
+mod tetrahedral_mesh;
 mod topology;
 mod triangle_mesh;
 mod welding;
@@ -17,6 +20,8 @@ pub use error::{MeshError, ObjFault};
 pub use normals::{NormalTopology, vertex_normals};
 pub use obj_read::{MAX_OBJ_BYTES, ObjReport, load_obj, load_obj_with_report};
 pub use obj_write::write_obj;
+pub use tetrahedral_error::{TetrahedralError, TetrahedralFault};
+pub use tetrahedral_mesh::{CELL_EDGES, CELL_FACES, FLAT_CELL, TetrahedralMesh, VertexLists};
 pub use topology::{Edge, Orientation, Topology};
 pub use triangle_mesh::TriangleMesh;
 pub use welding::{WELD_TOLERANCE, weld};
