@@ -7,7 +7,7 @@
 //! A single pass keeps linear momentum and the angular momentum `Σ m x × (g - x) = 0` exactly, because the masses of (2) and
 //! the averages of (7) divide by the same `|Nᵢ|`.
 
-use glam::{Mat3, Vec3};
+use glam::Mat3;
 use wide::{f32x4, f32x8};
 
 use super::global_solve::{Factor, Stiffening};
@@ -16,8 +16,8 @@ use super::rotation_wide::{LANES, WideMat3, WideQuat, nearest_rotations, times, 
 use crate::math::Quat;
 
 /// The sums of a lane without a region.
-const NO_REGION: [f32x4; 4] =
-    [f32x4::new([1.0, 0.0, 0.0, 0.0]), f32x4::new([0.0, 1.0, 0.0, 0.0]), f32x4::new([0.0, 0.0, 1.0, 0.0]), f32x4::ZERO];
+const NO_REGION: [f32x4; 3] =
+    [f32x4::new([1.0, 0.0, 0.0, 0.0]), f32x4::new([0.0, 1.0, 0.0, 0.0]), f32x4::new([0.0, 0.0, 1.0, 0.0])];
 
 /// What matching remembers of a body from step to step, and its buffers.
 #[derive(Clone, Debug)]
@@ -73,13 +73,30 @@ impl Matching {
             for (lane, sum) in sums.iter_mut().enumerate().take(maps.len()) {
                 *sum = region_sums(regions, x, b * LANES + lane);
             }
-            let (a, c) = (columns(&sums), centres(&sums));
+            let rows: [[f32x8; 4]; 3] = std::array::from_fn(|i| to_lanes(sums.map(|sum| sum[i])));
+            let a = rows.map(|[x, y, z, _]| [x, y, z]);
             let t = &self.local[b];
-            let a = times_transposed(&a, t);
-            self.rotations[b] = nearest_rotations(&a, self.rotations[b]);
+            self.rotations[b] = nearest_rotations(&times_transposed(&a, t), self.rotations[b]);
             let f = times(&self.rotations[b].matrix(), t);
-            store_maps(maps, &regions.rest_centre[b * LANES..], &f, &c, &x[b * LANES..]);
+            let rest = &regions.rest_centre[b];
+            for i in 0..3 {
+                let shift = rows[i][3] - (f[i][0] * rest[0] + f[i][1] * rest[1] + f[i][2] * rest[2]);
+                let row = from_lanes([f[i][0], f[i][1], f[i][2], shift]);
+                maps.iter_mut().zip(row).for_each(|(map, row)| map[i] = row);
+            }
         }
+    }
+
+    /// The maps of all regions for the goals of the pass before.
+    pub fn match_goals(&mut self, regions: &Regions) {
+        let goals = std::mem::take(&mut self.goals);
+        self.match_regions(regions, &goals);
+        self.goals = goals;
+    }
+
+    /// The goals of the global solve for the shape `x`, from the maps of the last pass.
+    pub fn solve(&mut self, stiffening: &Stiffening, factor: &Factor, regions: &Regions, x: &[f32x4]) {
+        stiffening.goals(factor, regions, x, &self.maps, &mut self.goals);
     }
 
     /// The mean at each vertex of the maps of its regions (7) into `goals`.
@@ -98,18 +115,6 @@ impl Matching {
         }
     }
 
-    /// The maps of all regions for the goals of the pass before.
-    pub fn match_goals(&mut self, regions: &Regions) {
-        let goals = std::mem::take(&mut self.goals);
-        self.match_regions(regions, &goals);
-        self.goals = goals;
-    }
-
-    /// The goals of the global solve for the shape `x`, from the maps of the last pass.
-    pub fn solve(&mut self, stiffening: &Stiffening, factor: &Factor, regions: &Regions, x: &[f32x4]) {
-        stiffening.goals(factor, regions, x, &self.maps, &mut self.goals);
-    }
-
     /// Sets all remembered rotations, where a body is placed.
     pub fn set_rotations(&mut self, q: Quat) {
         for block in &mut self.rotations {
@@ -122,54 +127,40 @@ fn identity() -> WideMat3 {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { f32x8::ONE } else { f32x8::ZERO }))
 }
 
-/// `Σ m̃ᵢ (xᵢ - x_r) qᵢᵀ` by columns, divided by the region's spread, and `c_r - x_r`. The first sum does not depend on the point
-/// that is subtracted, since the `m̃ᵢ qᵢ` add up to zero; subtracting keeps it exact far from the origin.
+/// `Σ m̃ᵢ (xᵢ - x_r) qᵢᵀ` by rows, divided by the region's spread, and beside them `c_r`. The sums do not depend on the point
+/// that is subtracted, since the `m̃ᵢ qᵢ` add up to zero; subtracting keeps them exact far from the origin.
 #[inline]
-fn region_sums(regions: &Regions, x: &[f32x4], region: usize) -> [f32x4; 4] {
+fn region_sums(regions: &Regions, x: &[f32x4], region: usize) -> [f32x4; 3] {
     let row = regions.row(region);
     let own = x[region];
-    let mut sums = [f32x4::ZERO; 4];
-    for (&i, entry) in regions.items[row.clone()].iter().zip(&regions.entries[row]) {
-        let d = x[i as usize] - own;
-        let [a, b, c, m] = entry.weight;
-        sums[0] += d * f32x4::splat(a);
-        sums[1] += d * f32x4::splat(b);
-        sums[2] += d * f32x4::splat(c);
-        sums[3] += d * f32x4::splat(m);
+    let mut sums = [f32x4::ZERO; 3];
+    for (&i, &weight) in regions.items[row.clone()].iter().zip(&regions.weights[row]) {
+        let [a, b, c, _] = (x[i as usize] - own).to_array();
+        sums[0] += weight * f32x4::splat(a);
+        sums[1] += weight * f32x4::splat(b);
+        sums[2] += weight * f32x4::splat(c);
     }
-    sums
+    let [a, b, c, _] = own.to_array();
+    [sums[0] + only_last(a), sums[1] + only_last(b), sums[2] + only_last(c)]
 }
 
-/// The matrices of the eight sums; identities where there is no region.
-#[inline]
-fn columns(sums: &[[f32x4; 4]; LANES]) -> WideMat3 {
-    let mut lanes = [[[0.0f32; LANES]; 3]; 3];
-    for (lane, sum) in sums.iter().enumerate() {
-        for column in 0..3 {
-            let v = sum[column].to_array();
-            for (row, values) in lanes.iter_mut().enumerate() {
-                values[column][lane] = v[row];
-            }
-        }
-    }
-    lanes.map(|row| row.map(f32x8::new))
+fn only_last(value: f32) -> f32x4 {
+    f32x4::new([0.0, 0.0, 0.0, value])
 }
 
+/// Eight vectors of four to four vectors of eight.
 #[inline]
-fn centres(sums: &[[f32x4; 4]; LANES]) -> [f32x4; LANES] {
-    sums.map(|sum| sum[3])
+fn to_lanes(v: [f32x4; LANES]) -> [f32x8; 4] {
+    let [a, b, c, d, e, f, g, h] = v;
+    let (low, high) = (f32x4::transpose([a, b, c, d]), f32x4::transpose([e, f, g, h]));
+    std::array::from_fn(|i| bytemuck::cast([low[i], high[i]]))
 }
 
-/// Writes `F | c - F c⁰` of up to eight regions by rows; `c` is relative to the region's own vertex, which is added.
+/// Four vectors of eight to eight vectors of four.
 #[inline]
-fn store_maps(maps: &mut [[f32x4; 3]], rest: &[Vec3], f: &WideMat3, c: &[f32x4; LANES], x: &[f32x4]) {
-    let f = f.map(|row| row.map(|v| v.to_array()));
-    for (lane, map) in maps.iter_mut().enumerate() {
-        let centre = (c[lane] + x[lane]).to_array();
-        let q = rest[lane];
-        *map = std::array::from_fn(|i| {
-            let [a, b, d] = [f[i][0][lane], f[i][1][lane], f[i][2][lane]];
-            f32x4::new([a, b, d, centre[i] - (a * q.x + b * q.y + d * q.z)])
-        });
-    }
+fn from_lanes(v: [f32x8; 4]) -> [f32x4; LANES] {
+    let halves = v.map(bytemuck::cast::<f32x8, [f32x4; 2]>);
+    let [a, b, c, d] = f32x4::transpose(halves.map(|h| h[0]));
+    let [e, f, g, h] = f32x4::transpose(halves.map(|h| h[1]));
+    [a, b, c, d, e, f, g, h]
 }

@@ -6,15 +6,11 @@
 
 use glam::{DVec3, Vec3};
 
-use super::ordering::nested_dissection;
-use crate::mesh::TetrahedralMesh;
+use wide::{f32x4, f32x8};
 
-/// One vertex of one region.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct RegionEntry {
-    /// `m̃ᵢ (xᵢ⁰ - c_r⁰)`, divided by the region's sum of `m̃ᵢ |xᵢ⁰ - c_r⁰|²`, and `m̃ᵢ / M_r`.
-    pub weight: [f32; 4],
-}
+use super::ordering::nested_dissection;
+use super::rotation_wide::LANES;
+use crate::mesh::TetrahedralMesh;
 
 /// The regions of a body at rest.
 #[derive(Clone, Debug)]
@@ -25,10 +21,10 @@ pub(super) struct Regions {
     pub starts: Vec<u32>,
     /// The places of the vertices of each region, ascending.
     pub items: Vec<u32>,
-    /// Beside each item its weights.
-    pub entries: Vec<RegionEntry>,
-    /// `c_r⁰` of each region, relative to the centre of mass at rest.
-    pub rest_centre: Vec<Vec3>,
+    /// Beside each item `m̃ᵢ (xᵢ⁰ - c_r⁰)`, divided by the region's sum of `m̃ᵢ |xᵢ⁰ - c_r⁰|²`, and `m̃ᵢ / M_r`.
+    pub weights: Vec<f32x4>,
+    /// `c_r⁰` of each region, relative to the centre of mass at rest, eight a block; 0 where there is no region.
+    pub rest_centre: Vec<[f32x8; 3]>,
     /// Rest position of each place, relative to the centre of mass at rest.
     pub rest: Vec<Vec3>,
     /// Mass of each place, in kilograms.
@@ -58,12 +54,13 @@ impl Regions {
         let mut regions = Self {
             starts: vec![0],
             items: Vec::new(),
-            entries: Vec::new(),
+            weights: Vec::new(),
             rest_centre: Vec::new(),
             rest: rest.iter().map(|x| x.as_vec3()).collect(),
             mass,
             vertex,
         };
+        let mut centres: Vec<Vec3> = Vec::new();
         for p in 0..rest.len() {
             let v = regions.vertex[p];
             let mut members: Vec<u32> = neighbours.of(v as usize).iter().map(|&n| place[n as usize]).collect();
@@ -75,12 +72,16 @@ impl Regions {
                 members.iter().map(|&i| shared[i as usize] * (rest[i as usize] - c).length_squared()).sum();
             for &i in &members {
                 let q = (rest[i as usize] - c) * (shared[i as usize] / spread);
-                let weight = [q.x as f32, q.y as f32, q.z as f32, (shared[i as usize] / sum) as f32];
-                regions.entries.push(RegionEntry { weight });
+                let part = (shared[i as usize] / sum) as f32;
+                regions.weights.push(f32x4::new([q.x as f32, q.y as f32, q.z as f32, part]));
             }
             regions.items.extend(members);
             regions.starts.push(regions.items.len() as u32);
-            regions.rest_centre.push(c.as_vec3());
+            centres.push(c.as_vec3());
+        }
+        for block in centres.chunks(LANES) {
+            let lanes = |axis: usize| f32x8::new(std::array::from_fn(|lane| block.get(lane).map_or(0.0, |c| c[axis])));
+            regions.rest_centre.push([lanes(0), lanes(1), lanes(2)]);
         }
         regions
     }
