@@ -18,7 +18,7 @@ const FARTHEST_WAVE: f32 = 30.0;
 
 /// The state of one body.
 ///
-/// A world with contacts reads [`ProcDefBody::goals`] each step, adds `(g - x) / h` to the velocities (equation 8) and moves
+/// A world with contacts reads [`ProcDefBody::pulls`] each step, adds `(g - x) / h` to the velocities (equation 8) and moves
 /// the vertices itself. [`ProcDefBody::step`] does all of it for a body alone.
 #[derive(Clone, Debug)]
 pub struct ProcDefBody {
@@ -27,7 +27,7 @@ pub struct ProcDefBody {
     pub settings: ProcDefSettings,
     positions: Vec<Vec3>,
     velocities: Vec<Vec3>,
-    goals: Vec<Vec3>,
+    pulls: Vec<Vec3>,
     matching: Matching,
     /// The current shape in the order of the regions, relative to the origin of the step.
     shape: Vec<f32x4>,
@@ -43,7 +43,7 @@ impl ProcDefBody {
         Self {
             settings: ProcDefSettings::default(),
             velocities: vec![Vec3::ZERO; positions.len()],
-            goals: positions.clone(),
+            pulls: vec![Vec3::ZERO; positions.len()],
             shape: vec![f32x4::ZERO; positions.len()],
             positions,
             matching,
@@ -77,12 +77,12 @@ impl ProcDefBody {
         &mut self.velocities
     }
 
-    /// Where each vertex should go in this step of `h` seconds, for its current positions.
+    /// Where each vertex should go in this step of `h` seconds, for its current positions: `g - x`, in metres.
     ///
     /// `local` is the deformation `T` of each vertex's region, one a vertex of the mesh; with any other length, and where it is
-    /// not finite, there is none. The goals have the body's linear momentum and its angular momentum: `Σ m (g - x) = 0` and
-    /// `Σ m x × (g - x) = 0` up to rounding. Where positions are not finite the goals are not either; this never panics.
-    pub fn goals(&mut self, local: &[Mat3], h: f32) -> &[Vec3] {
+    /// not finite, there is none. Linear and angular momentum are kept: `Σ m (g - x) = 0` and `Σ m x × (g - x) = 0` up to
+    /// rounding. Where positions are not finite the goals are not either; this never panics.
+    pub fn pulls(&mut self, local: &[Mat3], h: f32) -> &[Vec3] {
         let rig = Arc::clone(&self.rig);
         let regions = &rig.regions;
         let origin = self.positions.get(regions.vertex[0] as usize).copied().unwrap_or(Vec3::ZERO);
@@ -103,10 +103,10 @@ impl ProcDefBody {
         if !exact {
             keep_momentum(&regions.mass, &self.shape, &mut self.matching.goals);
         }
-        for (&g, &v) in self.matching.goals.iter().zip(&regions.vertex) {
-            self.goals[v as usize] = vec3(g) + origin;
+        for (&d, &v) in self.matching.goals.iter().zip(&regions.vertex) {
+            self.pulls[v as usize] = vec3(d);
         }
-        &self.goals
+        &self.pulls
     }
 
     /// The paper's iteration: each pass matches the goals of the one before.
@@ -117,6 +117,7 @@ impl ProcDefBody {
             self.matching.match_goals(&rig.regions);
             self.matching.blend(&rig.regions);
         }
+        self.matching.subtract(&self.shape);
     }
 
     /// One pass of matching and the global solve, for waves that run `distance` metres in the step.
@@ -130,7 +131,10 @@ impl ProcDefBody {
             Some((_, factor)) => {
                 self.matching.solve(&rig.stiffening, factor, &rig.regions, &self.shape);
             }
-            None => self.matching.blend(&rig.regions),
+            None => {
+                self.matching.blend(&rig.regions);
+                self.matching.subtract(&self.shape);
+            }
         }
     }
 
@@ -139,9 +143,9 @@ impl ProcDefBody {
         if !(h > 0.0 && h.is_finite()) {
             return;
         }
-        self.goals(local, h);
-        for ((v, &g), &x) in self.velocities.iter_mut().zip(&self.goals).zip(&self.positions) {
-            *v += (g - x) / h + gravity * h;
+        self.pulls(local, h);
+        for (v, &pull) in self.velocities.iter_mut().zip(&self.pulls) {
+            *v += pull / h + gravity * h;
         }
         let kept = (-self.settings.damping.max(0.0) * h).exp();
         if kept < 1.0 {

@@ -110,10 +110,10 @@ impl Stiffening {
         (out.inverse.iter().chain(&out.values).all(|v| v.is_finite())).then_some(out)
     }
 
-    /// The goals for the shape `x` and the maps of its regions, into `goals`.
-    pub fn goals(&self, factor: &Factor, regions: &Regions, x: &[f32x4], maps: &[[f32x4; 3]], goals: &mut [f32x4]) {
+    /// The ways from the shape `x` to the goals, for the maps of its regions.
+    pub fn ways(&self, factor: &Factor, regions: &Regions, x: &[f32x4], maps: &[[f32x4; 3]], ways: &mut [f32x4]) {
         let scale = f32x4::splat(factor.scale);
-        for (p, goal) in goals.iter_mut().enumerate() {
+        for (p, way) in ways.iter_mut().enumerate() {
             let row = regions.row(p);
             let own = x[p];
             let mut pushed = [f32x4::ZERO; 3];
@@ -126,10 +126,9 @@ impl Stiffening {
                 pulled += (x[i as usize] - own) * f32x4::splat(k);
             }
             let [u, v, w, t] = f32x4::transpose([pushed[0], pushed[1], pushed[2], f32x4::ZERO]);
-            *goal = ((u + v) + (w + t) - pulled) * scale;
+            *way = ((u + v) + (w + t) - pulled) * scale;
         }
-        factor.solve(goals);
-        goals.iter_mut().zip(x).for_each(|(g, &x)| *g += x);
+        factor.solve(ways);
     }
 }
 

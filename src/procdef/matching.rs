@@ -28,7 +28,7 @@ pub(super) struct Matching {
     local: Vec<WideMat3>,
     /// `R_r T_r | c_r - R_r T_r c_r⁰` of each region, by rows.
     maps: Vec<[f32x4; 3]>,
-    /// Where each place should go, relative to the origin of the step; the fourth component is 0.
+    /// Where each place should go, relative to the origin of the step, and at the end the way there; the fourth component is 0.
     pub goals: Vec<f32x4>,
 }
 
@@ -94,9 +94,9 @@ impl Matching {
         self.goals = goals;
     }
 
-    /// The goals of the global solve for the shape `x`, from the maps of the last pass.
+    /// The way from the shape `x` to the goals of the global solve, into `goals`, from the maps of the last pass.
     pub fn solve(&mut self, stiffening: &Stiffening, factor: &Factor, regions: &Regions, x: &[f32x4]) {
-        stiffening.goals(factor, regions, x, &self.maps, &mut self.goals);
+        stiffening.ways(factor, regions, x, &self.maps, &mut self.goals);
     }
 
     /// The mean at each vertex of the maps of its regions (7) into `goals`.
@@ -113,6 +113,11 @@ impl Matching {
             let [x, y, z, w] = f32x4::transpose([sum[0] * at, sum[1] * at, sum[2] * at, f32x4::ZERO]);
             *goal = (x + y) + (z + w);
         }
+    }
+
+    /// Makes of the goals the ways to them from the shape `x`.
+    pub fn subtract(&mut self, x: &[f32x4]) {
+        self.goals.iter_mut().zip(x).for_each(|(g, &x)| *g -= x);
     }
 
     /// Sets all remembered rotations, where a body is placed.
