@@ -14,6 +14,7 @@ mod rigid;
 mod rotation;
 mod rotation_wide;
 mod settings;
+mod volume;
 
 pub use body::ProcDefBody;
 pub use rig::{ProcDefRig, ProcDefRigBuilder};
