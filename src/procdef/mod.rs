@@ -4,6 +4,7 @@
 //! Character Animation* (2009); section and equation numbers are that paper's.
 
 mod body;
+mod embedded_skin;
 mod global_solve;
 mod matching;
 mod ordering;
@@ -17,6 +18,7 @@ mod settings;
 mod volume;
 
 pub use body::ProcDefBody;
+pub use embedded_skin::{DeformedSkin, EmbeddedSkin, EmbeddingReport, SkinBinding};
 pub use rig::{ProcDefRig, ProcDefRigBuilder};
 pub use rig_error::ProcDefRigError;
 pub use rotation::nearest_rotation;

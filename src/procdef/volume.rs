@@ -79,7 +79,7 @@ impl Cells {
             } else {
                 (0..self.corners.len())
                     .rev()
-                    .fold(0.0, |worst, c| worst.max(self.project_cell(c, y, targets[c], plane)))
+                    .fold(0.0, |worst: f32, c| worst.max(self.project_cell(c, y, targets[c], plane)))
             };
             if worst < NEAR {
                 return;
