@@ -6,7 +6,7 @@
 //! cancelled on the visible surface.
 //!
 //! Modules, each importing only from those to its right:
-//! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`] → [`spring`], [`field`], [`mesh`] → [`math`].
+//! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`], [`procdef`] → [`spring`], [`field`], [`mesh`] → [`math`].
 
 pub mod coupling;
 pub mod elastic;
@@ -15,6 +15,7 @@ pub mod field;
 pub mod gpu;
 pub mod math;
 pub mod mesh;
+pub mod procdef;
 pub mod spring;
 #[cfg(feature = "ui")]
 pub mod ui;
