@@ -2,3 +2,34 @@
 //!
 //! The method is that of Ijiri, Takayama, Yokota and Igarashi, *ProcDef: Local-to-global Deformation for Skeleton-free
 //! Character Animation* (2009); section and equation numbers are that paper's.
+
+mod cell_search;
+mod chart_table;
+mod charts;
+mod excitation;
+mod geodesic;
+mod line_chart;
+mod line_field;
+mod motion;
+mod orientation;
+mod paint;
+mod radial_basis;
+mod scalar_field;
+mod stimulus;
+mod stretch;
+mod trigger;
+
+pub use cell_search::{BoundaryPoint, barycentric, cell_at, nearest_on_boundary};
+pub use chart_table::{CHART_SAMPLES, ChartTable};
+pub use charts::{CHART_NAMES, ChartsError, DeformationCharts, VolumeMode};
+pub use excitation::{excitation, excitation_colour};
+pub use geodesic::GeodesicMesh;
+pub use line_chart::{ChartError, ChartInterpolation, ChartPoint, LineChart};
+pub use motion::{CyclicMotion, Motion, MotionError, MotionFields, MotionRig};
+pub use orientation::{DirectionStroke, OrientationError, OrientationField};
+pub use paint::{Brush, Canvas, PaintError, STROKE_REACH};
+pub use radial_basis::{MAX_POINTS, MERGE_DISTANCE, RadialBasis, RadialBasisError};
+pub use scalar_field::{AMPLITUDES, FieldError, LAYERS, PHASES, ScalarConstraint, ScalarField};
+pub use stimulus::{MAX_STIMULI, Stimulus, StimulusError, StimulusSettings};
+pub use stretch::Stretch;
+pub use trigger::{ContactTrigger, TriggerSettings};
