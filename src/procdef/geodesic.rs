@@ -3,8 +3,7 @@
 //! Distances are carried from cell to cell with the *source* of the wave: the three corners of a face and their distances fix
 //! a point from which the wave seems to come (trilateration), and the fourth corner is as far from it as it is, if the straight
 //! way passes through the face. Else the wave comes over an edge or a corner of the face, unfolded in its plane. Where the way
-//! is straight this is exact; behind a bend the wave of the edge is nearly spherical, and the error is some percent
-//! of the detour. (Novotni and Klein 2002 do this on surfaces.) Labels are corrected until none changes.
+//! is straight this is exact; just behind a bend, where ways part, the way may be some percent too long on coarse cells. (Novotni and Klein 2002 do this on surfaces.) Labels are corrected until none changes.
 
 use super::cell_search::cell_at;
 use crate::math::Vec3;
@@ -73,7 +72,8 @@ impl GeodesicMesh {
                 let corners = self.cells[cell as usize];
                 for k in 0..4 {
                     let target = corners[k];
-                    if target == vertex || known[target as usize] <= distance {
+                    // A way may pass through a face with a corner that is farther than the target.
+                    if target == vertex {
                         continue;
                     }
                     let face = [corners[(k + 1) % 4], corners[(k + 2) % 4], corners[(k + 3) % 4]];

@@ -14,6 +14,10 @@ mod motion;
 mod orientation;
 mod paint;
 mod radial_basis;
+mod rig_build;
+mod rig_checks;
+mod rig_description;
+mod rig_fault;
 mod scalar_field;
 mod stimulus;
 mod stretch;
@@ -29,7 +33,13 @@ pub use motion::{CyclicMotion, Motion, MotionError, MotionFields, MotionRig};
 pub use orientation::{DirectionStroke, OrientationError, OrientationField};
 pub use paint::{Brush, Canvas, PaintError, STROKE_REACH};
 pub use radial_basis::{MAX_POINTS, MERGE_DISTANCE, RadialBasis, RadialBasisError};
+pub use rig_build::BuiltMotion;
+pub use rig_description::{
+    AttachmentDescription, ChartsDescription, ContactDescription, GroundDescription, PaintDescription, RegionDescription,
+    RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription,
+};
+pub use rig_fault::{MotionRigFault, MotionRigFaultKind, MotionRigPlace};
 pub use scalar_field::{AMPLITUDES, FieldError, LAYERS, PHASES, ScalarConstraint, ScalarField};
 pub use stimulus::{MAX_STIMULI, Stimulus, StimulusError, StimulusSettings};
-pub use stretch::Stretch;
+pub use stretch::stretch_along;
 pub use trigger::{ContactTrigger, TriggerSettings};

@@ -8,8 +8,8 @@ use super::excitation::excitation;
 use super::geodesic::GeodesicMesh;
 use super::orientation::OrientationField;
 use super::stimulus::{MAX_STIMULI, Stimulus, StimulusError, StimulusSettings};
-use super::stretch::{LANES, Stretch, StretchAxes};
-use crate::math::Vec3;
+use super::stretch::{LANES, StretchAxes};
+use crate::math::{Mat3, Vec3};
 use crate::mesh::TetrahedralMesh;
 
 /// The fields of a body, a value for each vertex.
@@ -163,6 +163,11 @@ impl Default for Motion {
 }
 
 impl Motion {
+    /// A motion whose clock stands at `clock` seconds: bodies of a crowd start at different times.
+    pub fn at(clock: f64) -> Self {
+        Self { clock, ..Self::default() }
+    }
+
     /// Signals under way, the oldest first.
     pub fn stimuli(&self) -> &[Stimulus] {
         &self.stimuli
@@ -193,12 +198,11 @@ impl Motion {
         true
     }
 
-    /// The local transformations of all vertices now.
-    pub fn transforms_into(&self, rig: &MotionRig, stretches: &mut Vec<Stretch>) {
-        stretches.clear();
-        stretches.resize(rig.fields.amplitude.len(), Stretch::default());
+    /// The local transformations of all vertices now, symmetric matrices in the frame of the mesh at rest.
+    pub fn transforms_into(&self, rig: &MotionRig, transforms: &mut Vec<Mat3>) {
+        transforms.resize(rig.fields.amplitude.len(), Mat3::IDENTITY);
         let now = Now::of(self, rig);
-        for ((block, out), axes) in stretches.chunks_mut(LANES).enumerate().zip(&rig.axes) {
+        for ((block, out), axes) in transforms.chunks_mut(LANES).enumerate().zip(&rig.axes) {
             let mut logs = [[0.0; LANES]; 3];
             for lane in 0..out.len() {
                 let three = now.logarithms(block * LANES + lane);

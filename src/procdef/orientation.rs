@@ -68,10 +68,11 @@ impl OrientationField {
     ) -> Result<Self, OrientationError> {
         let mesh = canvas.mesh();
         let neighbours = mesh.neighbours();
-        let primary = primary_candidates(canvas, layers, strokes)?;
+        let layers = layers.map(|field| Layers::new(field, &mesh.positions));
+        let primary = primary_candidates(canvas, layers.as_ref(), strokes)?;
         let (first, second, confidence): (Vec<Vec3>, Vec<Vec3>, Vec<f32>);
-        if let Some(layers) = layers {
-            let gradients = gradient_candidates(layers, &mesh.positions);
+        if let Some(layers) = &layers {
+            let gradients: Vec<Candidate> = mesh.positions.iter().map(|x| layers.gradient(*x)).collect();
             second = extend(&gradients, &neighbours);
             let across: Vec<Candidate> = primary.iter().zip(&second).map(|(c, s)| made_across(*c, *s)).collect();
             first = extend(&across, &neighbours);
@@ -107,23 +108,35 @@ fn ramp(low: f32, high: f32, x: f32) -> f32 {
     u * u * (3.0 - 2.0 * u)
 }
 
-/// Gradients, believed where they are not small against the usual one.
-fn gradient_candidates(layers: &ScalarField, positions: &[Vec3]) -> Vec<Candidate> {
-    let gradients: Vec<Vec3> = positions.iter().map(|x| layers.gradient(*x)).collect();
-    let mut lengths: Vec<f32> = gradients.iter().map(|g| g.length()).collect();
-    lengths.sort_by(f32::total_cmp);
-    let usual = lengths.get(lengths.len() / 2).copied().unwrap_or(0.0);
-    // A layer field of one value has gradients of rounding errors.
-    let size = positions.iter().map(|x| x.distance(positions[0])).fold(0.0, f32::max);
-    let some = usual * size > 1.0e-4;
-    let confidence = |g: Vec3| if some { ramp(0.05, 0.2, g.length() / usual) } else { 0.0 };
-    gradients.into_iter().map(|direction| Candidate { direction, confidence: confidence(direction) }).collect()
+/// Layers, and how steep they usually are.
+struct Layers<'a> {
+    field: &'a ScalarField,
+    /// Median of the gradients' lengths over the vertices, per metre.
+    usual: f32,
+}
+
+impl<'a> Layers<'a> {
+    fn new(field: &'a ScalarField, positions: &[Vec3]) -> Self {
+        let mut lengths: Vec<f32> = positions.iter().map(|x| field.gradient(*x).length()).collect();
+        lengths.sort_by(f32::total_cmp);
+        let usual = lengths.get(lengths.len() / 2).copied().unwrap_or(0.0);
+        // A layer field of one value has gradients of rounding errors.
+        let size = positions.iter().map(|x| x.distance(positions[0])).fold(0.0, f32::max);
+        Self { field, usual: if usual * size > 1.0e-4 { usual } else { 0.0 } }
+    }
+
+    /// The gradient, believed where it is not small against the usual one.
+    fn gradient(&self, x: Vec3) -> Candidate {
+        let direction = self.field.gradient(x);
+        let confidence = if self.usual > 0.0 { ramp(0.05, 0.2, direction.length() / self.usual) } else { 0.0 };
+        Candidate { direction, confidence }
+    }
 }
 
 /// Interpolated strokes, believed where they do not cancel each other.
 fn primary_candidates(
     canvas: &Canvas,
-    layers: Option<&ScalarField>,
+    layers: Option<&Layers>,
     strokes: &[DirectionStroke],
 ) -> Result<Vec<Candidate>, OrientationError> {
     let positions = &canvas.mesh().positions;
@@ -149,7 +162,7 @@ fn primary_candidates(
 /// Points along a stroke, on its layer, with unit tangents in the layer.
 fn stroke_tangents(
     canvas: &Canvas,
-    layers: Option<&ScalarField>,
+    layers: Option<&Layers>,
     stroke: usize,
     drawn: &DirectionStroke,
 ) -> Result<Vec<(Vec3, Vec3)>, OrientationError> {
@@ -164,7 +177,7 @@ fn stroke_tangents(
     for (k, p) in canvas.sampled(&drawn.points).map_err(wrong)? {
         let p = canvas.inside(k, p).map_err(wrong)?;
         let p = match (drawn.layer, layers) {
-            (Some(layer), Some(layers)) => onto_layer(layers, layer, p, canvas.mesh().size()),
+            (Some(layer), Some(layers)) => onto_layer(layers.field, layer, p, canvas.mesh().size()),
             _ => p,
         };
         // Points that fall together have no tangent.
@@ -181,8 +194,11 @@ fn stroke_tangents(
         let before = if k > 0 { k - 1 } else if closed { count - 2 } else { 0 };
         let after = if k + 1 < count { k + 1 } else if closed { 1 } else { k };
         let along = line[after] - line[before];
-        let gradient = layers.map_or(Vec3::ZERO, |l| l.gradient(line[k])).normalize_or_zero();
-        (along - gradient * along.dot(gradient)).try_normalize().map(|t| (line[k], t))
+        let Some(layers) = layers else { return along.try_normalize().map(|t| (line[k], t)) };
+        let gradient = layers.gradient(line[k]);
+        let normal = gradient.direction.normalize_or_zero();
+        let inside = along - normal * (gradient.confidence * along.dot(normal));
+        inside.try_normalize().map(|t| (line[k], t))
     };
     Ok((0..count).filter_map(tangent).collect())
 }

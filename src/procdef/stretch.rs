@@ -6,32 +6,9 @@ use wide::f32x8;
 /// Vertices of a block.
 pub const LANES: usize = 8;
 
-/// A symmetric 3 × 3 matrix by its components xx, yy, zz, xy, yz, zx.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch(pub [f32; 6]);
-
-impl Default for Stretch {
-    fn default() -> Self {
-        Self([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
-    }
-}
-
-impl Stretch {
-    /// `c1 d1 d1ᵀ + c2 d2 d2ᵀ + c3 d3 d3ᵀ` (equation 1) for orthonormal columns d.
-    pub fn along(frame: &Mat3, rates: [f32; 3]) -> Self {
-        let mut sum = [0.0; 6];
-        for (axis, rate) in [frame.x_axis, frame.y_axis, frame.z_axis].into_iter().zip(rates) {
-            let t = [axis.x * axis.x, axis.y * axis.y, axis.z * axis.z, axis.x * axis.y, axis.y * axis.z, axis.z * axis.x];
-            (0..6).for_each(|k| sum[k] += rate * t[k]);
-        }
-        Self(sum)
-    }
-
-    /// The matrix.
-    pub fn matrix(&self) -> Mat3 {
-        let [xx, yy, zz, xy, yz, zx] = self.0;
-        Mat3::from_cols(Vec3::new(xx, xy, zx), Vec3::new(xy, yy, yz), Vec3::new(zx, yz, zz))
-    }
+/// `c1 d1 d1ᵀ + c2 d2 d2ᵀ + c3 d3 d3ᵀ` (equation 1) for orthonormal columns `d` of `frame` and rates `c`.
+pub fn stretch_along(frame: &Mat3, rates: [f32; 3]) -> Mat3 {
+    Mat3::from_cols(frame.x_axis * rates[0], frame.y_axis * rates[1], frame.z_axis * rates[2]) * frame.transpose()
 }
 
 /// Primary and secondary directions of eight vertices, lane by lane.
@@ -51,15 +28,15 @@ impl StretchAxes {
         frames.chunks(LANES).map(block).collect()
     }
 
-    /// The transformations of the block from the logarithms of the rates. As the three tensors of the axes sum to the
-    /// identity, `T = c3 I + (c1 − c3) d1 d1ᵀ + (c2 − c3) d2 d2ᵀ`.
-    pub fn stretch(&self, logs: &[[f32; LANES]; 3], out: &mut [Stretch]) {
+    /// The transformations of the block from the logarithms of the rates: [`stretch_along`], lane by lane. As the tensors
+    /// of the three axes sum to the identity, `T = c3 I + (c1 − c3) d1 d1ᵀ + (c2 − c3) d2 d2ᵀ`.
+    pub fn stretch(&self, logs: &[[f32; LANES]; 3], out: &mut [Mat3]) {
         let [c1, c2, c3] = logs.map(|l| f32x8::from(l).exp());
         let (a, b) = (c1 - c3, c2 - c3);
         let ([x, y, z], [u, v, w]) = (self.first, self.second);
         let (ax, ay, az) = (a * x, a * y, a * z);
         let (bu, bv, bw) = (b * u, b * v, b * w);
-        let six = [
+        let [xx, yy, zz, xy, yz, zx] = [
             ax * x + bu * u + c3,
             ay * y + bv * v + c3,
             az * z + bw * w + c3,
@@ -68,8 +45,12 @@ impl StretchAxes {
             az * x + bw * u,
         ]
         .map(f32x8::to_array);
-        for (lane, stretch) in out.iter_mut().enumerate() {
-            stretch.0 = std::array::from_fn(|k| six[k][lane]);
+        for (i, matrix) in out.iter_mut().enumerate() {
+            *matrix = Mat3::from_cols(
+                Vec3::new(xx[i], xy[i], zx[i]),
+                Vec3::new(xy[i], yy[i], yz[i]),
+                Vec3::new(zx[i], yz[i], zz[i]),
+            );
         }
     }
 }

@@ -1,0 +1,10 @@
+//! The fields, charts and stimuli of bodies that move by themselves.
+
+mod charts;
+mod geodesic;
+mod layers;
+mod meshes;
+mod motion;
+mod orientation;
+mod painting;
+mod trigger;
