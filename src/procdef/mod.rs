@@ -25,6 +25,7 @@ mod rig_checks;
 mod rig_description;
 mod rig_error;
 mod rig_fault;
+mod rig_file;
 mod rigid;
 mod rotation;
 mod rotation_wide;
@@ -52,6 +53,7 @@ pub use rig_description::{
     RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription,
 };
 pub use rig_error::ProcDefRigError;
+pub use rig_file::{MotionRigError, MotionRigFile, load_motion_rig, write_motion_rig};
 pub use rig_fault::{MotionRigFault, MotionRigFaultKind, MotionRigPlace};
 pub use rotation::nearest_rotation;
 pub use scalar_field::{AMPLITUDES, FieldError, LAYERS, PHASES, ScalarConstraint, ScalarField};
