@@ -1,4 +1,4 @@
-//! What stiffness means: the same for any mesh and time step, and as much as many iterations.
+//! What stiffness means: the same for any mesh and time step, and as much as many passes.
 
 #[path = "common/tetrahedra.rs"]
 #[allow(dead_code)] // it uses a part of it
@@ -45,16 +45,30 @@ fn bar(n: u32) -> TetrahedralMesh {
 }
 
 #[test]
-fn explore() {
+fn a_stiffness_swings_at_the_speed_of_its_waves_whatever_the_mesh_and_the_time_step() {
     for s in [0.1, 0.3, 0.5, 0.7] {
+        // A free bar of length 1: half a wave.
         let exact = 2.0 / (wave_speed(s) * bar(4).size());
         for n in [2, 3, 4, 6] {
-            let t = [1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0].map(|h| period(bar(n), Stiffness::Solve(s), h));
-            println!("stiffness {s} n {n}: {t:?} exact {exact}");
+            for h in [1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0] {
+                // Below six steps nothing swings.
+                if exact > 6.5 * h {
+                    let found = period(bar(n), Stiffness::Solve(s), h);
+                    // A mode of a coarse mesh is a little off its continuum's: 2 % were measured at n = 2.
+                    assert!((found / exact - 1.0).abs() < 0.03, "stiffness {s}, n {n}, h {h}: {found} {exact}");
+                }
+            }
         }
     }
+}
+
+#[test]
+fn the_global_solve_is_as_stiff_as_64_passes_of_matching() {
     for n in [3, 4, 6] {
-        println!("N: {:?}", [1, 4, 16, 64].map(|k| period(bar(n), Stiffness::Iterations(k), 1.0 / 60.0)));
-        println!("s {:?}", [0.6, 0.7, 0.8, 0.9, 1.0].map(|s| period(bar(n), Stiffness::Solve(s), 1.0 / 60.0)));
+        let h = 1.0 / 60.0;
+        let passes = period(bar(n), Stiffness::Iterations(64), h);
+        assert!(period(bar(n), Stiffness::Solve(0.8), h) <= passes);
+        // And what the passes mean depends on the mesh: half as long edges, twice the period.
+        assert!(period(bar(2 * n), Stiffness::Iterations(4), h) > 1.7 * period(bar(n), Stiffness::Iterations(4), h));
     }
 }

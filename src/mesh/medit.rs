@@ -80,9 +80,13 @@ pub fn write_tetrahedra(mesh: &TetrahedralMesh, path: impl AsRef<Path>) -> Resul
     let path = path.as_ref();
     let mut text = String::from("MeshVersionFormatted 1\nDimension 3\n");
     let _ = writeln!(text, "Vertices\n{}", mesh.positions.len());
-    mesh.positions.iter().for_each(|p| drop(writeln!(text, "{} {} {} 0", p.x, p.y, p.z)));
+    for p in &mesh.positions {
+        let _ = writeln!(text, "{} {} {} 0", p.x, p.y, p.z);
+    }
     let _ = writeln!(text, "Tetrahedra\n{}", mesh.cells.len());
-    mesh.cells.iter().map(|c| c.map(|v| v + 1)).for_each(|[a, b, c, d]| drop(writeln!(text, "{a} {b} {c} {d} 0")));
+    for [a, b, c, d] in mesh.cells.iter().map(|c| c.map(|v| v + 1)) {
+        let _ = writeln!(text, "{a} {b} {c} {d} 0");
+    }
     text.push_str("End\n");
     let failed = |source| TetrahedralError::Unwritable { path: path.into(), source };
     let mut file = AtomicFile::create(path).map_err(failed)?;

@@ -3,6 +3,8 @@
 
 mod atomic_file;
 mod error;
+mod fill_lattice;
+mod fill_smoothing;
 pub mod measure;
 mod medit;
 mod normals;
@@ -11,6 +13,7 @@ mod obj_scan;
 mod obj_write;
 mod polygon;
 mod tetrahedral_error;
+mod tetrahedral_fill;
 mod tetrahedral_mesh;
 mod topology;
 mod triangle_mesh;
@@ -23,6 +26,7 @@ pub use normals::{NormalTopology, vertex_normals};
 pub use obj_read::{MAX_OBJ_BYTES, ObjReport, load_obj, load_obj_with_report};
 pub use obj_write::write_obj;
 pub use tetrahedral_error::{TetrahedralError, TetrahedralFault};
+pub use tetrahedral_fill::{FillReport, fill_surface};
 pub use tetrahedral_mesh::{CELL_EDGES, CELL_FACES, FLAT_CELL, TetrahedralMesh, VertexLists};
 pub use topology::{Edge, Orientation, Topology};
 pub use triangle_mesh::TriangleMesh;

@@ -8,13 +8,9 @@ use wide::f32x4;
 use super::global_solve::Factor;
 use super::matching::Matching;
 use super::rigid::{damp, keep_momentum, vec3, wide};
-use super::settings::wave_speed;
+use super::settings::wave_distance;
 use super::{GroundPlane, ProcDefRig, ProcDefSettings, Stiffness};
 use crate::math::{Pose, Vec3};
-
-/// Waves run at most so many sizes of the body in a step: beyond, the goals are those of a rigid body to a ten-thousandth,
-/// and the factor would lose digits.
-const FARTHEST_WAVE: f32 = 30.0;
 
 /// The state of one body.
 ///
@@ -32,6 +28,9 @@ pub struct ProcDefBody {
     /// The current shape in the order of the regions, relative to the origin of the step.
     shape: Vec<f32x4>,
     factor: Option<(f32, Arc<Factor>)>,
+    /// Positions and target volumes while volumes are kept.
+    projected: Vec<f32x4>,
+    volumes: Vec<f32>,
 }
 
 impl ProcDefBody {
@@ -48,6 +47,8 @@ impl ProcDefBody {
             positions,
             matching,
             factor: None,
+            projected: Vec::new(),
+            volumes: Vec::new(),
             rig,
         }
     }
@@ -96,7 +97,7 @@ impl ProcDefBody {
                 n <= 1
             }
             Stiffness::Solve(stiffness) => {
-                self.solve(&rig, wave_speed(stiffness) * rig.size() * h);
+                self.solve(&rig, wave_distance(stiffness, h) * rig.size());
                 false
             }
         };
@@ -122,7 +123,6 @@ impl ProcDefBody {
 
     /// One pass of matching and the global solve, for waves that run `distance` metres in the step.
     fn solve(&mut self, rig: &ProcDefRig, distance: f32) {
-        let distance = distance.min(FARTHEST_WAVE * rig.size());
         if self.factor.as_ref().is_none_or(|(d, _)| *d != distance) {
             self.factor = rig.factor(distance).map(|factor| (distance, factor));
         }
@@ -154,6 +154,9 @@ impl ProcDefBody {
         if let Some(plane) = plane {
             self.stop_at(plane, h);
         }
+        if self.settings.keep_volume {
+            self.keep_volume(local, h, plane);
+        }
         for (x, &v) in self.positions.iter_mut().zip(&self.velocities) {
             *x += v * h;
         }
@@ -170,6 +173,26 @@ impl ProcDefBody {
                 let stopped = along.clamp_length_max(plane.friction.max(0.0) * push);
                 *v += plane.normal * push - stopped;
             }
+        }
+    }
+
+    /// Changes the velocities so that after `h` seconds of them every cell has its volume at rest, times the determinant of its
+    /// local deformation, as nearly as some tens of sweeps bring it; see [`ProcDefSettings::keep_volume`]. Linear momentum is
+    /// kept unless there is a plane.
+    ///
+    /// [`ProcDefBody::step`] calls it; a world with contacts calls it after it has added the pulls.
+    pub fn keep_volume(&mut self, local: &[Mat3], h: f32, plane: Option<&GroundPlane>) {
+        let rig = Arc::clone(&self.rig);
+        let regions = &rig.regions;
+        let ahead = |v: u32| wide(self.positions[v as usize] + self.velocities[v as usize] * h);
+        for (x, &v) in self.shape.iter_mut().zip(&regions.vertex) {
+            *x = ahead(v);
+        }
+        self.projected.clone_from(&self.shape);
+        rig.cells.targets(regions, local, &mut self.volumes);
+        rig.cells.project(&mut self.projected, &self.volumes, plane);
+        for ((y, x), &v) in self.projected.iter().zip(&self.shape).zip(&regions.vertex) {
+            self.velocities[v as usize] += vec3(*y - *x) / h;
         }
     }
 }

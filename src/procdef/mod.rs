@@ -34,6 +34,7 @@ mod settings;
 mod stimulus;
 mod stretch;
 mod trigger;
+mod volume;
 
 pub use body::ProcDefBody;
 pub use cell_search::{BoundaryPoint, barycentric, cell_at, nearest_on_boundary};
@@ -53,8 +54,8 @@ pub use rig_description::{
     RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription,
 };
 pub use rig_error::ProcDefRigError;
-pub use rig_file::{MotionRigError, MotionRigFile, load_motion_rig, write_motion_rig};
 pub use rig_fault::{MotionRigFault, MotionRigFaultKind, MotionRigPlace};
+pub use rig_file::{MotionRigError, MotionRigFile, load_motion_rig, write_motion_rig};
 pub use rotation::nearest_rotation;
 pub use scalar_field::{AMPLITUDES, FieldError, LAYERS, PHASES, ScalarConstraint, ScalarField};
 pub use settings::{GroundPlane, ProcDefSettings, Stiffness, wave_speed};

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::ProcDefRigError;
 use super::global_solve::{Factor, Stiffening};
 use super::regions::Regions;
+use super::volume::Cells;
 use crate::mesh::TetrahedralMesh;
 
 /// How many factors of the global solve a rig remembers: one for each stiffness and time step in use.
@@ -18,6 +19,7 @@ pub struct ProcDefRig {
     size: f32,
     pub(super) regions: Regions,
     pub(super) stiffening: Stiffening,
+    pub(super) cells: Cells,
     /// The latest factors and the `h c` they are for, the newest last.
     factors: Mutex<Vec<(f32, Option<Arc<Factor>>)>>,
 }
@@ -82,8 +84,8 @@ impl ProcDefRigBuilder {
     /// Computes regions and matrices.
     ///
     /// # Errors
-    /// A density or mass that is not positive and finite, masses that are not one a vertex, a mesh so small or large that
-    /// its volumes are lost in 32 bits.
+    /// A density or mass that is not positive and finite, masses that are not one a vertex, a mesh or a cell so small or
+    /// large that its volume is lost in 32 bits.
     pub fn build(&self) -> Result<ProcDefRig, ProcDefRigError> {
         let mesh = self.mesh.clone();
         let size = mesh.size();
@@ -107,6 +109,7 @@ impl ProcDefRigBuilder {
         }
         let regions = Regions::new(&mesh, &masses);
         let stiffening = Stiffening::new(&mesh, &regions);
-        Ok(ProcDefRig { mesh, masses, size, regions, stiffening, factors: Mutex::new(Vec::new()) })
+        let cells = Cells::new(&mesh, &regions)?;
+        Ok(ProcDefRig { cells, mesh, masses, size, regions, stiffening, factors: Mutex::new(Vec::new()) })
     }
 }

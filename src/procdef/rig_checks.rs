@@ -50,7 +50,10 @@ fn body(rig: &RigDescription) -> Check {
     }
     within(Place::root("iterations"), rig.iterations.map(|n| n as f32), 1.0, 64.0, "from 1 to 64")?;
     share(Place::root("stiffness"), rig.stiffness)?;
-    share(Place::root("damping"), rig.damping)?;
+    if rig.iterations.is_some() && rig.stiffness.is_some() {
+        return Err(fault(Place::root("stiffness"), Kind::StiffnessForm));
+    }
+    rig.damping.map_or(Ok(()), |v| not_negative(Place::root("damping"), v))?;
     colour(Place::root("colour"), rig.colour)
 }
 

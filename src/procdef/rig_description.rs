@@ -22,18 +22,18 @@ pub struct RigDescription {
     /// Density in kg/m³; instead of `mass`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<f32>,
-    /// Iterations N of shape matching a step, 1 to 64.
+    /// Iterations N of shape matching a step, 1 to 64; 2 without it and without `stiffness`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub iterations: Option<u32>,
-    /// Stiffness of the global solve, from 0 (none) to 1.
+    /// Stiffness of the global solve, from 0 to 1; instead of `iterations`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f32>,
-    /// Damping of what is not rigid motion, from 0 to 1.
+    /// Damping of what is not rigid motion, in 1/s: after a second `exp(-damping)` of it is left. 5 without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<f32>,
-    /// Whether the volume of the cells is kept.
+    /// Whether the volume of the cells is kept; false without.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume_preservation: Option<bool>,
+    pub keep_volume: Option<bool>,
     /// Colour of the body, linear RGB from 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<[f32; 3]>,

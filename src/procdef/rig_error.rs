@@ -22,9 +22,17 @@ pub enum ProcDefRigError {
         /// Its mass.
         mass: f32,
     },
-    /// A body of a single point has no neighbourhoods.
+    /// Lengths whose cubes 32 bits cannot hold.
     #[error(
         "the mesh is smaller than numbers of 32 bits can tell from a point, or larger than they hold: its size is {0} m"
     )]
     Size(f32),
+    /// A cell whose volume is nothing in 32 bits.
+    #[error("cell {cell} has the volume {volume:e} m³, which is lost in numbers of 32 bits")]
+    CellVolume {
+        /// The cell, from 0.
+        cell: usize,
+        /// Its volume.
+        volume: f32,
+    },
 }

@@ -104,6 +104,9 @@ pub enum MotionRigFaultKind {
     /// Both or neither of `mass` and `density`.
     #[error("needs one of `mass` and `density` and has {0}")]
     MassOrDensity(&'static str),
+    /// Both of `iterations` and `stiffness`.
+    #[error("and `iterations` are two ways to say how stiff the body is; choose one")]
+    StiffnessForm,
     /// None or several tools in a painted value.
     #[error("needs one of `face`, `region`, `stroke` and `section` and has {0}")]
     Brush(usize),

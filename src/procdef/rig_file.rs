@@ -4,7 +4,7 @@ use super::rig_build::{BuiltMotion, fault};
 use super::rig_description::RigDescription;
 use super::rig_fault::{MotionRigFault, MotionRigFaultKind as Kind, MotionRigPlace as Place};
 use crate::files::{TomlError, TomlText};
-use crate::mesh::{AtomicFile, TetrahedralMesh, TriangleMesh, load_obj, load_tetrahedra};
+use crate::mesh::{AtomicFile, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedra};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -86,8 +86,8 @@ fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh
         (true, None) => Err(fault(Place::root("mesh"), Kind::NoCellSize)),
         (true, Some(cell)) => {
             super::rig_checks::cell_size(cell)?;
-            let _surface = load_obj(path).map_err(|e| fault(Place::root("mesh"), e))?;
-            Err(fault(Place::root("mesh"), Kind::NoCellSize))
+            let surface = load_obj(path).map_err(|e| fault(Place::root("mesh"), e))?;
+            fill_surface(&surface, cell).map(|(mesh, _)| mesh).map_err(|e| fault(Place::root("mesh"), e))
         }
     }
 }

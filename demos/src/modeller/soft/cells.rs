@@ -34,7 +34,7 @@ impl Cells {
             for (t, corners) in triangles.iter().enumerate() {
                 if solid(t, layer) {
                     for l in [layer, layer + 1] {
-                        corners.iter().for_each(|v| drop(numbers.insert((l, *v), 0)));
+                        numbers.extend(corners.map(|v| ((l, v), 0)));
                     }
                 }
             }
