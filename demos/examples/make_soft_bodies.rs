@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use pliant::mesh::{TetrahedralMesh, write_tetrahedra};
+use pliant::mesh::{TetrahedralFormat, TetrahedralMesh, write_tetrahedral};
 use pliant::procdef::{load_motion_rig, write_motion_rig};
 use pliant_demos::modeller::mesh::Mesh;
 use pliant_demos::modeller::obj;
@@ -32,7 +32,7 @@ fn main() -> Result<()> {
             write_skin(&meshes.join(format!("{name}_skin.obj")), &skin.surface())?;
         }
         let mesh = cells.finish().with_context(|| name.to_string())?;
-        write_tetrahedra(&mesh, meshes.join(format!("{name}.mesh")))?;
+        write_tetrahedral(meshes.join(format!("{name}.mesh")), &mesh, TetrahedralFormat::Medit)?;
         tell(name, &mesh);
     }
     write_skin(&meshes.join("snail_shell.obj"), &shell::shell(3000))?;

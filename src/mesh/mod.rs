@@ -6,7 +6,6 @@ mod error;
 mod fill_lattice;
 mod fill_smoothing;
 pub mod measure;
-mod medit;
 mod normals;
 mod obj_read;
 mod obj_scan;
@@ -21,7 +20,6 @@ mod welding;
 
 pub use atomic_file::AtomicFile;
 pub use error::{MeshError, ObjFault};
-pub use medit::{load_tetrahedra, write_tetrahedra};
 pub use normals::{NormalTopology, vertex_normals};
 pub use obj_read::{MAX_OBJ_BYTES, ObjReport, load_obj, load_obj_with_report};
 pub use obj_write::write_obj;

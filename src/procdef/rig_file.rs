@@ -4,7 +4,7 @@ use super::rig_build::{BuiltMotion, fault};
 use super::rig_description::RigDescription;
 use super::rig_fault::{MotionRigFault, MotionRigFaultKind as Kind, MotionRigPlace as Place};
 use crate::files::{TomlError, TomlText};
-use crate::mesh::{AtomicFile, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedra};
+use crate::mesh::{AtomicFile, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedral};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -81,7 +81,7 @@ fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh
     let path = text.resolve(&description.mesh);
     let is_surface = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"));
     match (is_surface, description.cell_size) {
-        (false, None) => load_tetrahedra(path).map_err(|e| fault(Place::root("mesh"), e)),
+        (false, None) => load_tetrahedral(path).map_err(|e| fault(Place::root("mesh"), e)),
         (false, Some(_)) => Err(fault(Place::root("cell_size"), Kind::CellSize)),
         (true, None) => Err(fault(Place::root("mesh"), Kind::NoCellSize)),
         (true, Some(cell)) => {

@@ -7,4 +7,5 @@ mod meshes;
 mod motion;
 mod orientation;
 mod painting;
+mod rig_files;
 mod trigger;

@@ -33,7 +33,7 @@ pub const FINE: Fineness = Fineness { around: 3, along: 4 };
 
 /// Outer radius of the left ventricle, by the share `s` of the height from the apex (0) to the base (1).
 pub fn outer(s: f32) -> f32 {
-    RADIUS * (1.0 - (0.95 * (1.0 - s)).powi(2)).sqrt() * (1.0 - 0.12 * s.powi(4))
+    RADIUS * (1.0 - (0.85 * (1.0 - s)).powi(2)).sqrt() * (1.0 - 0.12 * s.powi(4))
 }
 
 /// Radius of its cavity.
@@ -52,7 +52,7 @@ pub fn in_left(s: f32, angle: f32, depth: f32) -> Vec3 {
     let radius = if depth < 0.0 { inner(s) * (1.0 + depth) } else { inner(s) + (outer(s) - inner(s)) * depth };
     let share = radius / outer(s);
     // The apex is a dome.
-    let dip = 0.1 * (1.0 - share * share) * (1.0 - s).powi(6);
+    let dip = 0.17 * (1.0 - share * share) * (1.0 - s).powi(4);
     at(radius, angle, HEIGHT * (s - 1.0) - dip)
 }
 

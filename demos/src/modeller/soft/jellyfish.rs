@@ -115,10 +115,10 @@ fn hang(cells: &mut Cells, base: &[[u32; 3]], layers: usize, length: f32, angle:
         let along = centre + Vec3::NEG_Y * (length * u) + out * (0.05 * (4.0 * u).sin()) - out * (0.12 * u);
         let d = p - centre;
         // Cross-sections turn level soon and narrow to the end; sideways they are as thick as through the wall.
-        let narrow = 1.0 - 0.65 * u;
+        let narrow = 1.0 - 0.45 * u;
         let level = Vec3::new(d.x, d.y * (1.0 - (4.0 * u).min(1.0)), d.z);
         let (wide, thick) = (level.dot(side), level.dot(out));
-        let slim = 0.55 + 0.45 * (1.0 - (3.0 * u).min(1.0));
+        let slim = 0.65 + 0.35 * (1.0 - (3.0 * u).min(1.0));
         along + (side * (wide * slim) + out * thick * 1.15 + Vec3::Y * level.y) * narrow
     });
 }

@@ -38,7 +38,8 @@ pub fn jellyfish(name: &str) -> RigDescription {
         }
     }
     let level = |value, y: f32| section(value, Vec3::Y * y, Vec3::Y);
-    rig.amplitude = vec![level(1.0, 0.4), level(1.0, 0.2), level(1.0, 0.02), level(0.0, -0.3), level(0.0, -0.85)];
+    // The bell contracts most at its rim; the tentacles are carried along.
+    rig.amplitude = vec![level(0.2, 0.46), level(0.75, 0.2), level(1.0, 0.02), level(0.0, -0.3), level(0.0, -0.85)];
     rig.phase = vec![level(0.0, 0.45), level(0.12, 0.2), level(0.25, 0.0), level(0.6, -0.4), level(1.0, -0.85)];
     rig
 }
@@ -129,7 +130,7 @@ pub fn snail() -> RigDescription {
         name: "shell".into(),
         mesh: Some("../meshes/snail_shell.obj".into()),
         mass: Some(15.0),
-        centre: rounded(shell::CENTRE - Vec3::Y * 0.25),
+        centre: rounded(shell::CENTRE - Vec3::Y * 0.36),
         radius: 0.2,
         colour: Some([0.45, 0.27, 0.14]),
     }];

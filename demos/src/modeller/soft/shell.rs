@@ -10,22 +10,22 @@ use crate::modeller::shapes::round_cone;
 use crate::modeller::surface::mesh_of;
 
 /// Middle of the coil, on the snail's back.
-pub const CENTRE: Vec3 = Vec3::new(-0.12, 0.52, 0.0);
+pub const CENTRE: Vec3 = Vec3::new(-0.12, 0.58, 0.0);
 /// Turns of the coil.
 const TURNS: f32 = 2.6;
 /// How much it grows in one turn.
 const GROWTH: f32 = 2.1;
 /// Radius of the last winding, from the middle.
-const REACH: f32 = 0.24;
+const REACH: f32 = 0.29;
 
 /// A point of the coil and the thickness there; `t` from the innermost (0) to the mouth (1).
 fn coil(t: f32) -> (Vec3, f32) {
     let turn = TURNS * (t - 1.0);
     let size = GROWTH.powf(turn);
-    let angle = TAU * turn - 0.45 * TAU;
+    let angle = TAU * turn - 0.22 * TAU;
     // Inner windings stand out to the side a little.
-    let side = 0.1 * (1.0 - size);
-    (CENTRE + REACH * size * Vec3::new(angle.cos(), angle.sin(), 0.0) + Vec3::Z * side, 0.185 * size.powf(0.9))
+    let side = 0.14 * (1.0 - size);
+    (CENTRE + REACH * size * Vec3::new(angle.cos(), angle.sin(), 0.0) + Vec3::Z * side, 0.155 * size.powf(0.9))
 }
 
 /// Models the shell with about `count` triangles.
@@ -35,14 +35,14 @@ pub fn shell(count: usize) -> Mesh {
     let distance = |p: Vec3| {
         let piece = |w: &[(Vec3, f32)]| round_cone(p, w[0].0, w[1].0, w[0].1, w[1].1);
         // A little blending fills the grooves where the mesh would pinch.
-        let sum: f32 = spine.windows(2).map(|w| (-60.0 * piece(w)).exp()).sum();
+        let sum: f32 = spine.windows(2).map(|w| (-100.0 * piece(w)).exp()).sum();
         if sum > 0.0 && sum.is_finite() {
-            -sum.ln() / 60.0 + 0.035
+            -sum.ln() / 100.0 + 0.022
         } else {
             spine.windows(2).map(piece).fold(f32::INFINITY, f32::min)
         }
     };
     let half = Vec3::new(0.62, 0.6, 0.42);
-    let nets = mesh_of(&distance, CENTRE - half, CENTRE + half, 0.03);
+    let nets = mesh_of(&distance, CENTRE - half, CENTRE + half, 0.025);
     remesh_to_count(nets, &distance, &|_| 1.0, count)
 }

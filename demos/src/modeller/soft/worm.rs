@@ -42,9 +42,9 @@ pub fn worm(worm: &Worm) -> Cells {
         u - 0.35 / std::f32::consts::TAU * (std::f32::consts::TAU * u).sin()
     };
     let profile = |u: f32| {
-        let end = 1.1 * worm.radius / worm.length;
+        let end = 1.6 * worm.radius / worm.length;
         let near = (u.min(1.0 - u) / end).min(1.0);
-        let dome = 0.5 + 0.5 * (1.0 - (1.0 - near).powi(2)).max(0.0).sqrt();
+        let dome = 0.62 + 0.38 * (1.0 - (1.0 - near).powi(2)).max(0.0).sqrt();
         // A little thicker behind the head.
         let swell = 0.92 + 0.12 * (-((u - 0.72) / 0.09).powi(2)).exp();
         let groove = 1.0 - worm.grooves * near * (std::f32::consts::PI * SEGMENTS * worm.length * u).cos().powi(8);
@@ -55,7 +55,7 @@ pub fn worm(worm: &Worm) -> Cells {
         let flat = disc.point(v) * profile(u);
         // The end faces bulge.
         let bulge = if layer == 0 { -1.0 } else if layer == last { 1.0 } else { 0.0 };
-        let out = bulge * 0.28 * worm.radius * (1.0 - disc.radius(v).powi(2));
+        let out = bulge * 0.38 * worm.radius * (1.0 - disc.radius(v).powi(2));
         Vec3::new((u - 0.5) * worm.length + out, flat.x, flat.y)
     };
     let mut cells = Cells::sweep(&disc.triangles, worm.layers, |_, _| true, place);
