@@ -194,6 +194,28 @@ fn what_the_regions_remember_does_not_decide_where_they_go() {
 }
 
 #[test]
+fn a_crowd_has_the_same_bits_for_any_number_of_threads() {
+    use rayon::prelude::*;
+    let rig = &rigs()[1];
+    let crowd = |threads: usize| {
+        let mut rng = Rng::with_seed(6);
+        let mut bodies: Vec<ProcDefBody> =
+            (0..9).map(|_| ProcDefBody::new(rig.clone(), &pose(&mut rng, 1.0))).collect();
+        for (body, stiffness) in bodies.iter_mut().zip(ALL.into_iter().cycle()) {
+            body.settings.stiffness = stiffness;
+            body.settings.keep_volume = true;
+            body.positions_mut().iter_mut().for_each(|x| *x += in_cube(&mut rng, 0.05));
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            bodies.par_iter_mut().for_each(|body| (0..20).for_each(|_| body.step(&[], H, Vec3::NEG_Y, None)));
+        });
+        bodies.iter().flat_map(|b| b.positions().iter().map(|x| x.to_array().map(f32::to_bits))).collect::<Vec<_>>()
+    };
+    assert_eq!(crowd(1), crowd(3));
+}
+
+#[test]
 fn bad_masses_and_densities_are_refused() {
     let mesh = tetrahedra::block([1, 1, 1], Vec3::ONE);
     let message = |b: &mut ProcDefRigBuilder| b.build().unwrap_err().to_string();

@@ -14,7 +14,7 @@ const MOST_CELLS: f64 = 5e6;
 /// Two triangles meet sharply where their normals differ by more than this, in degrees.
 const SHARP_DEGREES: f32 = 40.0;
 /// Vertices of the boundary go onto sharp features within so many cell sizes.
-const SHARP_REACH: f32 = 0.45;
+const SHARP_REACH: f32 = 0.6;
 
 /// How well a tetrahedral mesh fills a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
