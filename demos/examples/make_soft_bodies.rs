@@ -22,7 +22,11 @@ fn main() -> Result<()> {
         ("bowel", bowel::bowel(16, 33, 0.0), Some(bowel::bowel(40, 161, 0.12))),
         ("heart", heart::heart(heart::COARSE), Some(heart::heart(heart::FINE))),
         ("jellyfish", jellyfish::jellyfish(&jellyfish::LARGE), Some(jellyfish::jellyfish(&jellyfish::LARGE_SKIN))),
-        ("small_jellyfish", jellyfish::jellyfish(&jellyfish::SMALL), Some(jellyfish::jellyfish(&jellyfish::SMALL_SKIN))),
+        (
+            "small_jellyfish",
+            jellyfish::jellyfish(&jellyfish::SMALL),
+            Some(jellyfish::jellyfish(&jellyfish::SMALL_SKIN)),
+        ),
         ("snail", snail::snail(&snail::COARSE), None),
         ("worm", worm::worm(&worm::LONG), Some(worm::worm(&worm::LONG_SKIN))),
         ("short_worm", worm::worm(&worm::SHORT), Some(worm::worm(&worm::SHORT_SKIN))),
@@ -57,5 +61,7 @@ fn write_skin(path: &Path, skin: &Mesh) -> Result<()> {
 fn tell(name: &str, mesh: &TetrahedralMesh) {
     let [least, most] = mesh.dihedral_angles();
     let (vertices, cells, volume) = (mesh.vertex_count(), mesh.cells.len(), mesh.volume());
-    eprintln!("{name}.mesh: {vertices} vertices, {cells} cells, {volume:.3} m³, angles {least:.1} to {most:.1} degrees");
+    eprintln!(
+        "{name}.mesh: {vertices} vertices, {cells} cells, {volume:.3} m³, angles {least:.1} to {most:.1} degrees"
+    );
 }

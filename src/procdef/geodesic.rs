@@ -67,7 +67,8 @@ impl GeodesicMesh {
                 break;
             }
             budget -= 1;
-            for &cell in &self.incident[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
+            for &cell in
+                &self.incident[self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize]
             {
                 let corners = self.cells[cell as usize];
                 for k in 0..4 {
@@ -78,7 +79,9 @@ impl GeodesicMesh {
                     }
                     let face = [corners[(k + 1) % 4], corners[(k + 2) % 4], corners[(k + 3) % 4]];
                     let new = self.across(face, target, &known);
-                    if improves(new, known[target as usize]) || (new.is_finite() && known[target as usize].is_infinite()) {
+                    if improves(new, known[target as usize])
+                        || (new.is_finite() && known[target as usize].is_infinite())
+                    {
                         known[target as usize] = new;
                         queue.push(Reverse((Ordered(new), target)));
                     }

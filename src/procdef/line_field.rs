@@ -31,8 +31,7 @@ pub fn extend(candidates: &[Candidate], neighbours: &VertexLists) -> Vec<Vec3> {
         candidates.iter().zip(&unit).map(|(c, u)| if u.is_some() { f64::from(c.confidence) } else { 0.0 }).collect();
     let own: Vec<[f64; 6]> = unit.iter().map(|u| u.map_or([0.0; 6], tensor)).collect();
     let open: Vec<usize> = (0..candidates.len()).filter(|&i| trust[i] < 1.0).collect();
-    let mut tensors: Vec<[f64; 6]> =
-        own.iter().zip(&trust).map(|(t, w)| t.map(|v| v * w)).collect();
+    let mut tensors: Vec<[f64; 6]> = own.iter().zip(&trust).map(|(t, w)| t.map(|v| v * w)).collect();
     for _ in 0..SWEEPS {
         let mut change = 0.0f64;
         // Forward and backward in turn, so that neither order of the vertices is favoured.

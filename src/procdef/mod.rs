@@ -52,8 +52,8 @@ pub use radial_basis::{MAX_POINTS, MERGE_DISTANCE, RadialBasis, RadialBasisError
 pub use rig::{ProcDefRig, ProcDefRigBuilder};
 pub use rig_build::BuiltMotion;
 pub use rig_description::{
-    AttachmentDescription, ChartsDescription, ContactDescription, GroundDescription, PaintDescription, RegionDescription,
-    RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription,
+    AttachmentDescription, ChartsDescription, ContactDescription, GroundDescription, PaintDescription,
+    RegionDescription, RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription,
 };
 pub use rig_error::ProcDefRigError;
 pub use rig_fault::{MotionRigFault, MotionRigFaultKind, MotionRigPlace};

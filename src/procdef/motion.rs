@@ -221,11 +221,7 @@ impl Motion {
 
     /// The three rates at a vertex now; 1 for a vertex that there is not.
     pub fn rates(&self, rig: &MotionRig, vertex: usize) -> [f32; 3] {
-        if vertex < rig.fields.amplitude.len() {
-            Now::of(self, rig).logarithms(vertex).map(f32::exp)
-        } else {
-            [1.0; 3]
-        }
+        if vertex < rig.fields.amplitude.len() { Now::of(self, rig).logarithms(vertex).map(f32::exp) } else { [1.0; 3] }
     }
 }
 
@@ -278,11 +274,13 @@ impl<'a> Now<'a> {
 }
 
 fn check(fields: &MotionFields, expected: usize) -> Result<(), MotionError> {
-    let length = |field, given| if given == expected { Ok(()) } else { Err(MotionError::Length { field, given, expected }) };
+    let length =
+        |field, given| if given == expected { Ok(()) } else { Err(MotionError::Length { field, given, expected }) };
     length("orientation", fields.orientation.frames.len())?;
     length("amplitude", fields.amplitude.len())?;
     length("phase", fields.phase.len())?;
-    let finite = |field, found: Option<usize>| found.map_or(Ok(()), |vertex| Err(MotionError::NotFinite { field, vertex }));
+    let finite =
+        |field, found: Option<usize>| found.map_or(Ok(()), |vertex| Err(MotionError::NotFinite { field, vertex }));
     finite("orientation", fields.orientation.frames.iter().position(|f| !f.is_finite()))?;
     finite("amplitude", fields.amplitude.iter().position(|a| !a.is_finite()))?;
     finite("phase", fields.phase.iter().position(|p| !p.is_finite()))

@@ -191,8 +191,20 @@ fn stroke_tangents(
     }
     let closed = count > 3 && line[0].distance(line[count - 1]) < 1.0e-4 * canvas.mesh().size();
     let tangent = |k: usize| {
-        let before = if k > 0 { k - 1 } else if closed { count - 2 } else { 0 };
-        let after = if k + 1 < count { k + 1 } else if closed { 1 } else { k };
+        let before = if k > 0 {
+            k - 1
+        } else if closed {
+            count - 2
+        } else {
+            0
+        };
+        let after = if k + 1 < count {
+            k + 1
+        } else if closed {
+            1
+        } else {
+            k
+        };
         let along = line[after] - line[before];
         let Some(layers) = layers else { return along.try_normalize().map(|t| (line[k], t)) };
         let gradient = layers.gradient(line[k]);

@@ -97,7 +97,8 @@ impl<'a> Canvas<'a> {
         let corners = |t: &[u32; 3]| t.map(|v| mesh.positions[v as usize]);
         let normal = |[a, b, c]: [Vec3; 3]| (b - a).cross(c - a).normalize_or_zero();
         let normals = boundary.iter().map(|t| normal(corners(t))).collect();
-        let edges: f32 = boundary.iter().map(corners).map(|[a, b, c]| a.distance(b) + b.distance(c) + c.distance(a)).sum();
+        let edges: f32 =
+            boundary.iter().map(corners).map(|[a, b, c]| a.distance(b) + b.distance(c) + c.distance(a)).sum();
         let spacing = 0.5 * edges / (3 * boundary.len().max(1)) as f32;
         Self { mesh, boundary, normals, size: mesh.size(), spacing }
     }
@@ -234,4 +235,3 @@ impl<'a> Canvas<'a> {
 pub(super) fn finite(line: &[Vec3]) -> Result<(), PaintError> {
     line.iter().position(|p| !p.is_finite()).map_or(Ok(()), |k| Err(PaintError::NotFinite(k)))
 }
-

@@ -203,7 +203,9 @@ fn solve<const N: usize>(
         scale,
         weights: (0..n).map(|i| std::array::from_fn(|k| solution[(i, k)])).collect(),
         constant: std::array::from_fn(|k| solution[(n, k)]),
-        linear: std::array::from_fn(|k| axes.iter().enumerate().map(|(a, axis)| *axis * solution[(n + 1 + a, k)]).sum()),
+        linear: std::array::from_fn(|k| {
+            axes.iter().enumerate().map(|(a, axis)| *axis * solution[(n + 1 + a, k)]).sum()
+        }),
         points,
     })
 }

@@ -5,7 +5,9 @@ use super::line_chart::{ChartInterpolation, LineChart};
 use super::motion::{CyclicMotion, MotionFields, MotionRig};
 use super::orientation::{DirectionStroke, OrientationError, OrientationField};
 use super::paint::{Brush, Canvas};
-use super::rig_description::{ChartsDescription, PaintDescription, RigDescription, StimulusDescription, StrokeDescription};
+use super::rig_description::{
+    ChartsDescription, PaintDescription, RigDescription, StimulusDescription, StrokeDescription,
+};
 use super::rig_fault::{MotionRigFault, MotionRigFaultKind as Kind, MotionRigPlace as Place};
 use super::scalar_field::{AMPLITUDES, FieldError, LAYERS, PHASES, ScalarConstraint, ScalarField};
 use super::stimulus::StimulusSettings;
@@ -52,8 +54,7 @@ impl RigDescription {
             phase: values(&phase, 0.0),
         };
         let cyclic = self.charts.as_ref().map(|c| cyclic(c, !self.phase.is_empty())).transpose()?;
-        let response =
-            self.stimulus.as_ref().map(|s| response(s, cyclic.as_ref().map(|c| &c.charts))).transpose()?;
+        let response = self.stimulus.as_ref().map(|s| response(s, cyclic.as_ref().map(|c| &c.charts))).transpose()?;
         let motion = MotionRig::new(mesh, fields, cyclic, response).map_err(|e| fault(Place::root(""), e))?;
         Ok(BuiltMotion { motion, layers, trigger: self.stimulus.as_ref().map(trigger) })
     }
@@ -68,7 +69,8 @@ fn painted(
     if described.is_empty() {
         return Ok(None);
     }
-    let constraint = |(i, p): (usize, &PaintDescription)| Ok(ScalarConstraint { value: p.value, brush: brush(table, i, p)? });
+    let constraint =
+        |(i, p): (usize, &PaintDescription)| Ok(ScalarConstraint { value: p.value, brush: brush(table, i, p)? });
     let constraints: Vec<ScalarConstraint> = described.iter().enumerate().map(constraint).collect::<Result<_, _>>()?;
     ScalarField::paint(canvas, &constraints, range.clone()).map(Some).map_err(|e| match e {
         FieldError::Paint { constraint, source } => {

@@ -72,8 +72,7 @@ impl ScalarField {
             if !range.contains(&value) {
                 return Err(FieldError::Value { constraint, value, least: *range.start(), most: *range.end() });
             }
-            let placed =
-                canvas.points(&painted.brush).map_err(|source| FieldError::Paint { constraint, source })?;
+            let placed = canvas.points(&painted.brush).map_err(|source| FieldError::Paint { constraint, source })?;
             values.extend(placed.iter().map(|_| [value]));
             points.extend(placed);
         }

@@ -1,7 +1,9 @@
 //! Deformation charts.
 
 use fastrand::Rng;
-use pliant::procdef::{ChartError, ChartInterpolation, ChartTable, ChartsError, DeformationCharts, LineChart, VolumeMode};
+use pliant::procdef::{
+    ChartError, ChartInterpolation, ChartTable, ChartsError, DeformationCharts, LineChart, VolumeMode,
+};
 
 const BOTH_WAYS: [ChartInterpolation; 2] = [ChartInterpolation::Linear, ChartInterpolation::Smooth];
 

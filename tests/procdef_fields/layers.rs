@@ -3,7 +3,8 @@
 use fastrand::Rng;
 use pliant::math::Vec3;
 use pliant::procdef::{
-    AMPLITUDES, Brush, Canvas, FieldError, LAYERS, MAX_POINTS, RadialBasis, RadialBasisError, ScalarConstraint, ScalarField,
+    AMPLITUDES, Brush, Canvas, FieldError, LAYERS, MAX_POINTS, RadialBasis, RadialBasisError, ScalarConstraint,
+    ScalarField,
 };
 
 use crate::meshes::bar;
@@ -52,9 +53,9 @@ fn the_gradient_is_that_of_the_value() {
     let field = RadialBasis::fit(&points, &values, 0.0).unwrap();
     for x in cloud(&mut rng, 50) {
         let h = 1e-2;
-        let difference = Vec3::from([Vec3::X, Vec3::Y, Vec3::Z].map(|a| {
-            (field.value(x + a * h)[0] - field.value(x - a * h)[0]) / (2.0 * h)
-        }));
+        let difference = Vec3::from(
+            [Vec3::X, Vec3::Y, Vec3::Z].map(|a| (field.value(x + a * h)[0] - field.value(x - a * h)[0]) / (2.0 * h)),
+        );
         let exact = field.gradient(x)[0];
         // Central differences of step 0.01 in a field that varies over 0.2: a percent, plus rounding 1e-7 / 0.01.
         assert!(exact.distance(difference) < 0.03 * exact.length() + 0.05, "{exact} {difference}");
@@ -120,7 +121,8 @@ fn values_that_are_none_are_refused_with_their_index() {
 fn painted_values_stay_in_their_range_and_hold_where_they_were_painted() {
     let mesh = bar([8, 2, 2], 0.25);
     let canvas = Canvas::new(&mesh);
-    let end = |x: f32, value| ScalarConstraint { value, brush: Brush::Region { seed: Vec3::new(x, 0.25, 0.25), angle: 0.2 } };
+    let end =
+        |x: f32, value| ScalarConstraint { value, brush: Brush::Region { seed: Vec3::new(x, 0.25, 0.25), angle: 0.2 } };
     let middle = Brush::Section { origin: Vec3::X, normal: Vec3::X, stroke: vec![] };
     let painted = [end(0.0, -1.0), ScalarConstraint { value: 1.0, brush: middle }, end(2.0, 0.0)];
     let field = ScalarField::paint(&canvas, &painted, AMPLITUDES).unwrap();

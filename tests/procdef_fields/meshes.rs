@@ -48,11 +48,15 @@ pub fn bar(counts: [u32; 3], side: f32) -> TetrahedralMesh {
 /// A solid cylinder about x, of the given length, of radius 1: a square prism whose cross-section is rounded.
 pub fn cylinder(length: f32, along: u32, across: u32) -> TetrahedralMesh {
     let n = 2 * across;
-    cubes([along, n, n], |_| true, move |p| {
-        let q = [p.y, p.z].map(|c| c / across as f32 - 1.0);
-        let square = q[0].abs().max(q[1].abs());
-        let round = (q[0] * q[0] + q[1] * q[1]).sqrt();
-        let scale = if round > 0.0 { square / round } else { 0.0 };
-        Vec3::new(p.x * length / along as f32, q[0] * scale, q[1] * scale)
-    })
+    cubes(
+        [along, n, n],
+        |_| true,
+        move |p| {
+            let q = [p.y, p.z].map(|c| c / across as f32 - 1.0);
+            let square = q[0].abs().max(q[1].abs());
+            let round = (q[0] * q[0] + q[1] * q[1]).sqrt();
+            let scale = if round > 0.0 { square / round } else { 0.0 };
+            Vec3::new(p.x * length / along as f32, q[0] * scale, q[1] * scale)
+        },
+    )
 }

@@ -12,8 +12,7 @@ use crate::meshes::bar;
 
 fn charts(cycle: f32, volume: VolumeMode) -> DeformationCharts {
     let points = [[0.0, 1.0], [0.25, 0.6], [0.6, 1.5]];
-    let mut charts =
-        DeformationCharts::volume_preserving(cycle, volume, &points, ChartInterpolation::Smooth).unwrap();
+    let mut charts = DeformationCharts::volume_preserving(cycle, volume, &points, ChartInterpolation::Smooth).unwrap();
     charts.charts[1] = LineChart::through(&[[0.2, 0.8], [0.7, 1.2]], ChartInterpolation::Linear).unwrap();
     charts
 }

@@ -4,8 +4,8 @@ use fastrand::Rng;
 use pliant::math::{Mat3, Vec3};
 use pliant::mesh::TetrahedralMesh;
 use pliant::procdef::{
-    Brush, Canvas, DirectionStroke, LAYERS, OrientationError, OrientationField, PaintError, ScalarConstraint, ScalarField,
-    stretch_along,
+    Brush, Canvas, DirectionStroke, LAYERS, OrientationError, OrientationField, PaintError, ScalarConstraint,
+    ScalarField, stretch_along,
 };
 
 use crate::meshes::{bar, cubes, cylinder};
@@ -140,7 +140,8 @@ fn frames_of_random_constraints_are_orthonormal_and_turn_slowly_where_they_are_d
             [-0.25, 0.0, 0.25].into_iter().map(|h| section(middle + normal * h, normal, 0.5 + 2.0 * h)).collect();
         let layers = ScalarField::paint(&canvas, &painted, LAYERS).unwrap();
         let points = vec![middle - along * 0.2, middle, middle + along * 0.2];
-        let field = OrientationField::paint(&canvas, Some(&layers), &[DirectionStroke { points, layer: None }]).unwrap();
+        let field =
+            OrientationField::paint(&canvas, Some(&layers), &[DirectionStroke { points, layer: None }]).unwrap();
         assert_orthonormal(&field);
         // Planar layers and one straight stroke: nearly constant fields, unless the stroke runs along the gradient.
         if normal.dot(along).abs() < 0.9 {

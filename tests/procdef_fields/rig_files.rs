@@ -5,9 +5,9 @@ use std::path::Path;
 
 use pliant::mesh::{TetrahedralFormat, write_tetrahedral};
 use pliant::procdef::{
-    AttachmentDescription, ChartsDescription, ContactDescription, GroundDescription, PaintDescription, RegionDescription,
-    RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription, load_motion_rig,
-    write_motion_rig,
+    AttachmentDescription, ChartsDescription, ContactDescription, GroundDescription, PaintDescription,
+    RegionDescription, RigDescription, SectionDescription, StimulusDescription, StrokeDescription, WaterDescription,
+    load_motion_rig, write_motion_rig,
 };
 
 use crate::meshes::bar;
@@ -28,7 +28,8 @@ fn error(rig: &str) -> String {
 fn everything() -> RigDescription {
     let plain = PaintDescription::default;
     let region = RegionDescription { seed: [2.0, 1.0, 0.5], angle_degrees: 30.0 };
-    let section = SectionDescription { origin: [0.1, 0.0, 0.0], normal: [1.0, 0.0, 0.0], stroke: vec![[0.1, 0.5, 0.3]] };
+    let section =
+        SectionDescription { origin: [0.1, 0.0, 0.0], normal: [1.0, 0.0, 0.0], stroke: vec![[0.1, 0.5, 0.3]] };
     RigDescription {
         mesh: "bar.mesh".into(),
         density: Some(1050.1),
@@ -121,34 +122,67 @@ fn every_fault_is_told_with_its_line_and_key() {
         (format!("{head}\n[[layer]]\nvalue = 0.5\n"), "rig.toml:4: layer 0: needs one of `face`"),
         (format!("{head}[[layer]]\nvalue = 0.5\nface = 3\nstroke = [[0.0, 0.0, 0.0]]\n"), "and has 2"),
         (format!("{head}[[layer]]\nvalue = 0.5\nface = 999\n"), "rig.toml:5: layer 0: `face` is triangle 999"),
-        (format!("{head}[[layer]]\nvalue = 1.5\nface = 3\n"), "rig.toml:4: layer 0: `value` must be from 0 to 1 and is 1.5"),
-        (format!("{head}[[amplitude]]\nvalue = -1.5\nface = 3\n"), "rig.toml:4: amplitude 0: `value` must be from -1 to 1"),
         (
-            format!("{head}[[phase]]\nvalue = 0.0\nface = 1\n[[phase]]\nvalue = 1.0\nstroke = [[0.0, 9.0, 0.0]]\n{charts}speed = 1.0\n"),
+            format!("{head}[[layer]]\nvalue = 1.5\nface = 3\n"),
+            "rig.toml:4: layer 0: `value` must be from 0 to 1 and is 1.5",
+        ),
+        (
+            format!("{head}[[amplitude]]\nvalue = -1.5\nface = 3\n"),
+            "rig.toml:4: amplitude 0: `value` must be from -1 to 1",
+        ),
+        (
+            format!(
+                "{head}[[phase]]\nvalue = 0.0\nface = 1\n[[phase]]\nvalue = 1.0\nstroke = [[0.0, 9.0, 0.0]]\n{charts}speed = 1.0\n"
+            ),
             "rig.toml:8: phase 1: `stroke` has point 0 at [0.0, 9.0, 0.0], which is 8 m away from the surface",
         ),
         (
-            format!("{head}[[layer]]\nvalue = 0.0\nsection = {{ origin = [9.0, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }}\n"),
+            format!(
+                "{head}[[layer]]\nvalue = 0.0\nsection = {{ origin = [9.0, 0.0, 0.0], normal = [1.0, 0.0, 0.0] }}\n"
+            ),
             "rig.toml:5: layer 0: `section` does not cut the body",
         ),
-        (format!("{head}[[direction]]\nstroke = [[0.0, 0.0, 0.0]]\n"), "rig.toml:4: direction 0: `stroke` needs at least 2"),
+        (
+            format!("{head}[[direction]]\nstroke = [[0.0, 0.0, 0.0]]\n"),
+            "rig.toml:4: direction 0: `stroke` needs at least 2",
+        ),
         (
             format!("{head}[[direction]]\nlayer = 0.5\nstroke = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]\n"),
             "rig.toml:4: direction 0: `layer` is 0.5; layers go from 0 to 1",
         ),
-        (format!("{head}[charts]\ncycle = 0.0\nprimary = [[0.0, 1.0]]\n"), "rig.toml:4: charts: `cycle` the cycle takes 0 s"),
+        (
+            format!("{head}[charts]\ncycle = 0.0\nprimary = [[0.0, 1.0]]\n"),
+            "rig.toml:4: charts: `cycle` the cycle takes 0 s",
+        ),
         (format!("{head}{charts}limit = 0.5\n"), "rig.toml:6: charts: `limit` the largest rate is 0.5"),
         (format!("{head}{charts}volume = \"boht\"\n"), "rig.toml:6: charts: `volume` is `boht`, did you mean `both`?"),
-        (format!("{head}{charts}interpolation = \"x\"\n"), "rig.toml:6: charts: `interpolation` is `x`; there are: linear, smooth"),
-        (format!("{head}{charts}secondary = [[0.0, 1.0]]\n"), "rig.toml:6: charts: `secondary` follows from the primary chart"),
+        (
+            format!("{head}{charts}interpolation = \"x\"\n"),
+            "rig.toml:6: charts: `interpolation` is `x`; there are: linear, smooth",
+        ),
+        (
+            format!("{head}{charts}secondary = [[0.0, 1.0]]\n"),
+            "rig.toml:6: charts: `secondary` follows from the primary chart",
+        ),
         (format!("{head}{charts}speed = 0.0\n"), "the propagation speed is 0"),
-        (format!("{head}[charts]\ncycle = 1.0\nprimary = [[0.0, 3.0]]\n"), "rig.toml:5: charts: `primary` primary chart: control point 0"),
-        (format!("{head}[charts]\ncycle = 1.0\nprimary = []\n"), "rig.toml:5: charts: `primary` primary chart: a chart needs"),
-        (format!("{head}{charts}[[phase]]\nvalue = 1.0\nface = 3\n"), "rig.toml:3: charts: `speed` is missing, but phases are painted"),
+        (
+            format!("{head}[charts]\ncycle = 1.0\nprimary = [[0.0, 3.0]]\n"),
+            "rig.toml:5: charts: `primary` primary chart: control point 0",
+        ),
+        (
+            format!("{head}[charts]\ncycle = 1.0\nprimary = []\n"),
+            "rig.toml:5: charts: `primary` primary chart: a chart needs",
+        ),
+        (
+            format!("{head}{charts}[[phase]]\nvalue = 1.0\nface = 3\n"),
+            "rig.toml:3: charts: `speed` is missing, but phases are painted",
+        ),
         (format!("{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\n"), "rig.toml:3: stimulus: has no `charts`"),
         (format!("{head}[stimulus]\nspeed = 1.0\ndamping = 0.5\n"), "rig.toml:5: stimulus: `damping` must be from 1"),
         (
-            format!("{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\n[stimulus.charts]\ncycle = 1.0\nprimary = [[0.0, 1.0]]\nspeed = 1.0\n"),
+            format!(
+                "{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\n[stimulus.charts]\ncycle = 1.0\nprimary = [[0.0, 1.0]]\nspeed = 1.0\n"
+            ),
             "rig.toml:9: stimulus: charts: `speed` belongs to the stimulus itself",
         ),
         (format!("{head}[contact]\nfriction = -1.0\n"), "rig.toml:4: contact: `friction` must be"),
@@ -156,7 +190,10 @@ fn every_fault_is_told_with_its_line_and_key() {
             format!("{head}[ground]\ndirection = [0.0, 0.0, 0.0]\nforward = 0.1\nbackward = 0.1\nsideways = 0.1\n"),
             "rig.toml:4: ground: `direction` must be",
         ),
-        (format!("{head}[water]\ndensity = 1.0\nnormal_drag = nan\ntangential_drag = 0.0\n"), "rig.toml:5: water: `normal_drag`"),
+        (
+            format!("{head}[water]\ndensity = 1.0\nnormal_drag = nan\ntangential_drag = 0.0\n"),
+            "rig.toml:5: water: `normal_drag`",
+        ),
         (
             format!("{head}[[attachment]]\nname = \"a\"\ncentre = [0.0, 5.0, 0.0]\nradius = 0.1\n"),
             "rig.toml:6: attachment 0: `radius` holds no vertex of the body; the nearest is 4 m away",
@@ -185,7 +222,8 @@ fn a_wrong_cell_of_the_mesh_is_told_with_file_and_line() {
 #[test]
 fn a_closed_surface_is_filled_with_cells() {
     let folder = folder("mesh = \"ball.obj\"\ncell_size = 0.15\ndensity = 1000.0\n");
-    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes/ball.obj"), folder.path().join("ball.obj")).unwrap();
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/meshes/ball.obj"), folder.path().join("ball.obj"))
+        .unwrap();
     let read = load_motion_rig(folder.path().join("rig.toml")).unwrap();
     let exact = 4.0 / 3.0 * std::f64::consts::PI * 0.125;
     // The boundary follows the surface to a few percent of the radius.

@@ -27,7 +27,10 @@ pub fn bar(across: u32, along: u32) -> Cells {
         }
     }
     let side = |k: u32| (k as f32 / across as f32 - 0.5) * THICKNESS;
-    Cells::sweep(&triangles, along as usize + 1, |_, _| true, |v, layer| {
-        Vec3::new((layer as f32 / along as f32 - 0.5) * LENGTH, side(v / row), side(v % row))
-    })
+    Cells::sweep(
+        &triangles,
+        along as usize + 1,
+        |_, _| true,
+        |v, layer| Vec3::new((layer as f32 / along as f32 - 0.5) * LENGTH, side(v / row), side(v % row)),
+    )
 }

@@ -40,13 +40,18 @@ pub fn middle(u: f32) -> (Vec3, Vec3) {
 /// are, as a share of the radius.
 pub fn bowel(around: u32, layers: usize, haustra: f32) -> Cells {
     let disc = Disc::new(&[around; 3]);
-    Cells::sweep(&disc.triangles, layers, |_, _| true, |v, layer| {
-        let u = layer as f32 / (layers - 1) as f32;
-        let (centre, along) = middle(u);
-        let side = Vec3::Z.cross(along);
-        let furrow = 1.0 - haustra * (PI * 16.0 * u).cos().powi(6);
-        let radius = INNER + (OUTER * furrow - INNER) * disc.radius(v);
-        let (sin, cos) = disc.angle(v).sin_cos();
-        centre + radius * (side * cos + Vec3::Z * sin)
-    })
+    Cells::sweep(
+        &disc.triangles,
+        layers,
+        |_, _| true,
+        |v, layer| {
+            let u = layer as f32 / (layers - 1) as f32;
+            let (centre, along) = middle(u);
+            let side = Vec3::Z.cross(along);
+            let furrow = 1.0 - haustra * (PI * 16.0 * u).cos().powi(6);
+            let radius = INNER + (OUTER * furrow - INNER) * disc.radius(v);
+            let (sin, cos) = disc.angle(v).sin_cos();
+            centre + radius * (side * cos + Vec3::Z * sin)
+        },
+    )
 }

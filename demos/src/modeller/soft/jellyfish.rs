@@ -28,16 +28,11 @@ pub struct Jellyfish<'a> {
 pub const LARGE: Jellyfish =
     Jellyfish { rings: &[1, 8, 16, 24, 24, 24, 24], wall: 3, spacing: 3, width: 1, tentacle: 9, stalk: 6 };
 /// The jellyfish of figure 10.
-pub const SMALL: Jellyfish = Jellyfish { rings: &[1, 6, 12, 16, 16], wall: 3, spacing: 4, width: 1, tentacle: 7, stalk: 0 };
+pub const SMALL: Jellyfish =
+    Jellyfish { rings: &[1, 6, 12, 16, 16], wall: 3, spacing: 4, width: 1, tentacle: 7, stalk: 0 };
 /// The drawn surface of the small one.
-pub const SMALL_SKIN: Jellyfish = Jellyfish {
-    rings: &[1, 6, 12, 32, 32, 64, 64, 64, 64],
-    wall: 3,
-    spacing: 16,
-    width: 4,
-    tentacle: 28,
-    stalk: 0,
-};
+pub const SMALL_SKIN: Jellyfish =
+    Jellyfish { rings: &[1, 6, 12, 32, 32, 64, 64, 64, 64], wall: 3, spacing: 16, width: 4, tentacle: 28, stalk: 0 };
 /// The drawn surface of the large one.
 pub const LARGE_SKIN: Jellyfish = Jellyfish {
     rings: &[1, 8, 16, 24, 48, 48, 48, 96, 96, 96, 96, 96, 96],
@@ -68,8 +63,7 @@ pub fn in_wall(v: f32, angle: f32, depth: f32) -> Vec3 {
 pub fn jellyfish(form: &Jellyfish) -> Cells {
     let disc = Disc::new(form.rings);
     let around = form.rings[form.rings.len() - 1];
-    let place =
-        |v: u32, layer: usize| in_wall(disc.radius(v), disc.angle(v), layer as f32 / (form.wall - 1) as f32);
+    let place = |v: u32, layer: usize| in_wall(disc.radius(v), disc.angle(v), layer as f32 / (form.wall - 1) as f32);
     let mut cells = Cells::sweep(&disc.triangles, form.wall, |_, _| true, place);
     let rim = rim_triangles(&cells, &disc, form);
     for tentacle in 0..around / form.spacing {

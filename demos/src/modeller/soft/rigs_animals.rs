@@ -29,7 +29,8 @@ pub fn jellyfish(name: &str) -> RigDescription {
     rig.stimulus = Some(StimulusDescription { speed: 2.0, damping: 2.0, ..StimulusDescription::default() });
     rig.contact = Some(ContactDescription { friction: 0.2, self_contact: false });
     rig.water = Some(WaterDescription { density: 1000.0, normal_drag: 1.2, tangential_drag: 0.05 });
-    rig.layer = vec![region(0.0, jelly::in_wall(0.4, 0.3, 1.0), 30.0), region(1.0, jelly::in_wall(0.5, 0.3, 0.0), 30.0)];
+    rig.layer =
+        vec![region(0.0, jelly::in_wall(0.4, 0.3, 1.0), 30.0), region(1.0, jelly::in_wall(0.5, 0.3, 0.0), 30.0)];
     for v in [0.35, 0.85] {
         for k in 0..4 {
             let start = FRAC_PI_2 * k as f32;
@@ -61,8 +62,7 @@ pub fn worm(name: &str, half: f32) -> RigDescription {
     });
     rig.stimulus = Some(StimulusDescription { speed: 1.5, damping: 3.0, ..StimulusDescription::default() });
     rig.contact = Some(ContactDescription { friction: 0.6, self_contact: false });
-    rig.ground =
-        Some(GroundDescription { direction: [1.0, 0.0, 0.0], forward: 0.1, backward: 1.0, sideways: 0.8 });
+    rig.ground = Some(GroundDescription { direction: [1.0, 0.0, 0.0], forward: 0.1, backward: 1.0, sideways: 0.8 });
     rig.layer = round_layers(half, worms::LONG.radius);
     rig.direction = vec![along(None, line(steps(-0.9 * half, 0.9 * half, 2).map(|x| Vec3::X * x)))];
     rig.phase = steps(1.0, -1.0, 5).map(|u| section(0.5 - 0.5 * u, Vec3::X * (0.98 * half * u), Vec3::X)).collect();
@@ -94,7 +94,12 @@ pub fn worm_bend() -> RigDescription {
     let side = |z: f32| line(steps(-0.9 * half, 0.9 * half, 7).map(|x| Vec3::new(x, 0.0, z)));
     rig.amplitude = vec![stroke(1.0, side(radius)), stroke(-1.0, side(-radius))];
     for x in steps(-0.8 * half, 0.8 * half, 5) {
-        rig.amplitude.push(on_section(0.0, Vec3::X * x, Vec3::X, line([Vec3::new(x, -0.9 * radius, 0.0), Vec3::new(x, 0.9 * radius, 0.0)])));
+        rig.amplitude.push(on_section(
+            0.0,
+            Vec3::X * x,
+            Vec3::X,
+            line([Vec3::new(x, -0.9 * radius, 0.0), Vec3::new(x, 0.9 * radius, 0.0)]),
+        ));
     }
     rig
 }

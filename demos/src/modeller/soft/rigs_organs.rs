@@ -25,7 +25,8 @@ fn bar() -> RigDescription {
 pub fn bending_bar() -> RigDescription {
     let mut rig = bar();
     let half = 0.5 * THICKNESS;
-    rig.amplitude = vec![region(1.0, Vec3::new(0.03, half, 0.02), 20.0), region(-1.0, Vec3::new(0.03, -half, 0.02), 20.0)];
+    rig.amplitude =
+        vec![region(1.0, Vec3::new(0.03, half, 0.02), 20.0), region(-1.0, Vec3::new(0.03, -half, 0.02), 20.0)];
     rig.charts = Some(ChartsDescription {
         cycle: 4.0,
         limit: Some(2.0),
@@ -91,7 +92,8 @@ pub fn heart() -> RigDescription {
         let fibre = steps(-1.0, 1.0, 3).map(|t| right(s - t * step * climb * outer(s) / HEIGHT, u + t * step, 0.5));
         rig.direction.push(along(None, line(fibre)));
     }
-    rig.phase = vec![section(0.0, Vec3::Y * (-0.97 * HEIGHT), Vec3::Y), section(1.0, Vec3::Y * (-0.01 * HEIGHT), Vec3::Y)];
+    rig.phase =
+        vec![section(0.0, Vec3::Y * (-0.97 * HEIGHT), Vec3::Y), section(1.0, Vec3::Y * (-0.01 * HEIGHT), Vec3::Y)];
     rig
 }
 

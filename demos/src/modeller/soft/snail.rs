@@ -47,7 +47,13 @@ pub fn snail(form: &Snail) -> Cells {
         let up = if flat.y < 0.0 { 0.3 * flat.y } else { 0.7 * flat.y };
         let ahead = (middle((u + 0.02).min(1.0)) - middle((u - 0.02).max(0.0))).normalize();
         let normal = Vec3::Z.cross(ahead);
-        let bulge = if layer == 0 { -0.4 } else if layer == last { 0.5 } else { 0.0 };
+        let bulge = if layer == 0 {
+            -0.4
+        } else if layer == last {
+            0.5
+        } else {
+            0.0
+        };
         let out = ahead * (bulge * width * (1.0 - disc.radius(v).powi(2)));
         middle(u) + normal * (height * (up + 0.3)) - Vec3::Z * (-width * flat.x) + out
     };

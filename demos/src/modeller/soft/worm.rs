@@ -54,7 +54,13 @@ pub fn worm(worm: &Worm) -> Cells {
         let u = share(layer);
         let flat = disc.point(v) * profile(u);
         // The end faces bulge.
-        let bulge = if layer == 0 { -1.0 } else if layer == last { 1.0 } else { 0.0 };
+        let bulge = if layer == 0 {
+            -1.0
+        } else if layer == last {
+            1.0
+        } else {
+            0.0
+        };
         let out = bulge * 0.38 * worm.radius * (1.0 - disc.radius(v).powi(2));
         Vec3::new((u - 0.5) * worm.length + out, flat.x, flat.y)
     };
