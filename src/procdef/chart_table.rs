@@ -1,6 +1,6 @@
 //! Charts sampled over one cycle, so that a thousand vertices read them in microseconds.
 
-use super::charts::DeformationCharts;
+use super::charts::{DeformationCharts, VolumeMode};
 use super::line_chart::wrap;
 
 /// Samples of a cycle. Between them the logarithms of the rates are linear: a kink of a chart is blunted over 1/1024 of the
@@ -14,13 +14,14 @@ pub struct ChartTable {
     rows: Vec<[f32; 3]>,
     cycle: f32,
     bound: f32,
+    volume: VolumeMode,
 }
 
 impl ChartTable {
     /// Samples charts.
     pub fn new(charts: &DeformationCharts) -> Self {
         let rows = (0..=CHART_SAMPLES).map(|i| charts.logarithms(i as f32 / CHART_SAMPLES as f32)).collect();
-        Self { rows, cycle: charts.cycle, bound: charts.limit.ln() }
+        Self { rows, cycle: charts.cycle, bound: charts.limit.ln(), volume: charts.volume }
     }
 
     /// The cycle in seconds.
@@ -31,6 +32,22 @@ impl ChartTable {
     /// `ln A`: no logarithm of a rate is farther from 0.
     pub fn bound(&self) -> f32 {
         self.bound
+    }
+
+    /// How the charts keep the volume.
+    pub fn volume(&self) -> VolumeMode {
+        self.volume
+    }
+
+    /// The logarithm of the primary rate at a phase in [0, 2]; the cycle repeats at 1. The fast way for many vertices.
+    pub fn primary(&self, phase: f32) -> f32 {
+        let place = phase * CHART_SAMPLES as f32;
+        // A negative phase or none becomes 0.
+        let row = place as usize;
+        let u = place - row as f32;
+        let row = row % CHART_SAMPLES;
+        let (a, b) = (self.rows[row][0], self.rows[row + 1][0]);
+        a + u * (b - a)
     }
 
     /// The logarithms at a phase of any size.

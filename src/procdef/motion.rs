@@ -3,7 +3,7 @@
 //! `T = c1 d1 d1ᵀ + c2 d2 d2ᵀ + c3 d3 d3ᵀ` (equation 1) with `c = c(t − P/v)^A` (section 4.3).
 
 use super::chart_table::{ChartTable, limited};
-use super::charts::{ChartsError, DeformationCharts};
+use super::charts::{ChartsError, DeformationCharts, VolumeMode};
 use super::excitation::excitation;
 use super::geodesic::GeodesicMesh;
 use super::orientation::OrientationField;
@@ -70,6 +70,8 @@ pub enum MotionError {
 pub struct MotionRig {
     fields: MotionFields,
     axes: Vec<StretchAxes>,
+    /// Phase of each vertex in the cycle when the clock is at 0, in [0, 1]: `-P/(v T)` without its whole cycles.
+    offsets: Vec<f32>,
     cyclic: Option<(CyclicMotion, ChartTable)>,
     response: Option<(StimulusSettings, ChartTable)>,
     mesh: TetrahedralMesh,
@@ -92,7 +94,16 @@ impl MotionRig {
         let axes = StretchAxes::blocks(&fields.orientation.frames);
         let geodesic = GeodesicMesh::new(mesh);
         let length = geodesic.length(mesh);
-        let mut rig = Self { fields, axes, cyclic: None, response: None, mesh: mesh.clone(), geodesic, length };
+        let mut rig = Self {
+            fields,
+            axes,
+            offsets: Vec::new(),
+            cyclic: None,
+            response: None,
+            mesh: mesh.clone(),
+            geodesic,
+            length,
+        };
         rig.set_cyclic(cyclic)?;
         rig.set_response(response)?;
         Ok(rig)
@@ -118,6 +129,17 @@ impl MotionRig {
         self.length
     }
 
+    /// How all charts together keep the volume: as each does, if they agree.
+    fn volume(&self) -> VolumeMode {
+        let cyclic = self.cyclic.as_ref().map(|c| c.1.volume());
+        let response = self.response.as_ref().map(|r| r.1.volume());
+        match (cyclic, response) {
+            (Some(a), Some(b)) if a != b => VolumeMode::Free,
+            (Some(mode), _) | (None, Some(mode)) => mode,
+            (None, None) => VolumeMode::Free,
+        }
+    }
+
     /// Exchanges the cycle, as when charts are edited.
     ///
     /// # Errors
@@ -128,6 +150,11 @@ impl MotionRig {
             if c.speed.is_nan() || c.speed.abs() < 1.0e-6 {
                 return Err(MotionError::Speed(c.speed));
             }
+        }
+        self.offsets.clear();
+        if let Some(c) = &cyclic {
+            let shift = 1.0 / (f64::from(c.speed) * f64::from(c.charts.cycle));
+            self.offsets.extend(self.fields.phase.iter().map(|p| (-f64::from(*p) * shift).rem_euclid(1.0) as f32));
         }
         self.cyclic = cyclic.map(|c| (c.clone(), ChartTable::new(&c.charts)));
         Ok(())
@@ -202,13 +229,22 @@ impl Motion {
     pub fn transforms_into(&self, rig: &MotionRig, transforms: &mut Vec<Mat3>) {
         transforms.resize(rig.fields.amplitude.len(), Mat3::IDENTITY);
         let now = Now::of(self, rig);
+        let volume = rig.volume();
         for ((block, out), axes) in transforms.chunks_mut(LANES).enumerate().zip(&rig.axes) {
-            let mut logs = [[0.0; LANES]; 3];
-            for lane in 0..out.len() {
-                let three = now.logarithms(block * LANES + lane);
-                (0..3).for_each(|k| logs[k][lane] = three[k]);
+            let first = block * LANES;
+            if volume == VolumeMode::Free {
+                let mut logs = [[0.0; LANES]; 3];
+                for lane in 0..out.len() {
+                    let three = now.logarithms(first + lane);
+                    (0..3).for_each(|k| logs[k][lane] = three[k]);
+                }
+                axes.stretch(&logs, out);
+            } else {
+                let mut logs = [0.0; LANES];
+                let count = out.len();
+                now.primaries(first, &mut logs[..count]);
+                axes.stretch_by_primary(volume, logs, out);
             }
-            axes.stretch(&logs, out);
         }
     }
 
@@ -230,18 +266,16 @@ struct Now<'a> {
     rig: &'a MotionRig,
     stimuli: &'a [Stimulus],
     strength: f32,
-    /// Phase of the cycle without shift, in [0, 1).
+    /// Phase of the cycle without shift, in [0, 1].
     phase: f32,
-    /// Cycles for a phase shift of 1.
-    shift: f32,
     bound: f32,
 }
 
 impl<'a> Now<'a> {
     fn of(motion: &'a Motion, rig: &'a MotionRig) -> Self {
-        let (phase, shift) = rig.cyclic.as_ref().map_or((0.0, 0.0), |(c, _)| {
+        let phase = rig.cyclic.as_ref().map_or(0.0, |(c, _)| {
             let cycles = motion.clock / f64::from(c.charts.cycle);
-            ((cycles - cycles.floor()) as f32, 1.0 / (c.speed * c.charts.cycle))
+            (cycles - cycles.floor()) as f32
         });
         let bounds = [rig.cyclic.as_ref().map(|c| c.1.bound()), rig.response.as_ref().map(|r| r.1.bound())];
         Self {
@@ -249,8 +283,21 @@ impl<'a> Now<'a> {
             stimuli: &motion.stimuli,
             strength: if motion.strength.is_finite() { motion.strength.clamp(0.0, 1.0) } else { 0.0 },
             phase,
-            shift,
             bound: bounds.into_iter().flatten().fold(0.0, f32::max),
+        }
+    }
+
+    /// Logarithms of the primary rates of the vertices from `first` on.
+    fn primaries(&self, first: usize, logs: &mut [f32]) {
+        match &self.rig.cyclic {
+            Some((_, table)) if self.stimuli.is_empty() => {
+                let vertices = first..first + logs.len();
+                let (offsets, amplitudes) = (&self.rig.offsets[vertices.clone()], &self.rig.fields.amplitude[vertices]);
+                for ((log, offset), amplitude) in logs.iter_mut().zip(offsets).zip(amplitudes) {
+                    *log = self.strength * amplitude * table.primary(self.phase + offset);
+                }
+            }
+            _ => logs.iter_mut().enumerate().for_each(|(k, log)| *log = self.logarithms(first + k)[0]),
         }
     }
 
@@ -258,7 +305,7 @@ impl<'a> Now<'a> {
         let mut logs = [0.0; 3];
         if let Some((_, table)) = &self.rig.cyclic {
             let exponent = self.strength * self.rig.fields.amplitude[vertex];
-            logs = table.at(self.phase - self.rig.fields.phase[vertex] * self.shift).map(|l| l * exponent);
+            logs = table.at(self.phase + self.rig.offsets[vertex]).map(|l| l * exponent);
         }
         if self.stimuli.is_empty() {
             return logs;

@@ -1,5 +1,6 @@
 //! Local transformations: symmetric matrices that stretch along three axes, eight vertices at a time.
 
+use super::charts::VolumeMode;
 use crate::math::{Mat3, Vec3};
 use wide::f32x8;
 
@@ -31,7 +32,24 @@ impl StretchAxes {
     /// The transformations of the block from the logarithms of the rates: [`stretch_along`], lane by lane. As the tensors
     /// of the three axes sum to the identity, `T = c3 I + (c1 − c3) d1 d1ᵀ + (c2 − c3) d2 d2ᵀ`.
     pub fn stretch(&self, logs: &[[f32; LANES]; 3], out: &mut [Mat3]) {
-        let [c1, c2, c3] = logs.map(|l| f32x8::from(l).exp());
+        self.with_rates(logs.map(|l| f32x8::from(l).exp()), out);
+    }
+
+    /// The same from the logarithms of the primary rates alone, where the others follow from them.
+    pub fn stretch_by_primary(&self, volume: VolumeMode, logs: [f32; LANES], out: &mut [Mat3]) {
+        let first = f32x8::from(logs).exp();
+        let one = f32x8::from(1.0);
+        let rates = match volume {
+            VolumeMode::Secondary => [first, one / first, one],
+            _ => {
+                let other = one / first.sqrt();
+                [first, other, other]
+            }
+        };
+        self.with_rates(rates, out);
+    }
+
+    fn with_rates(&self, [c1, c2, c3]: [f32x8; 3], out: &mut [Mat3]) {
         let (a, b) = (c1 - c3, c2 - c3);
         let ([x, y, z], [u, v, w]) = (self.first, self.second);
         let (ax, ay, az) = (a * x, a * y, a * z);

@@ -44,7 +44,7 @@ pub fn inner(s: f32) -> f32 {
 /// How far the right ventricle's cavity stands out, before the curve around.
 fn bulge(s: f32) -> f32 {
     let u = ((s - 0.12) / 0.75).clamp(0.0, 1.0);
-    BULGE * (0.12 + 0.88 * u * (2.0 - u)) * (0.9 + 0.1 * s)
+    BULGE * (0.28 + 0.72 * u * (2.0 - u)) * (0.9 + 0.1 * s)
 }
 
 /// A place on the left ventricle: `depth` from the middle axis (-1) over the cavity's surface (0) to the outside (1).

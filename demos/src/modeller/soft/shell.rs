@@ -31,7 +31,10 @@ fn coil(t: f32) -> (Vec3, f32) {
 /// Models the shell with about `count` triangles.
 pub fn shell(count: usize) -> Mesh {
     const PIECES: usize = 90;
-    let spine: Vec<(Vec3, f32)> = (0..=PIECES).map(|i| coil(i as f32 / PIECES as f32)).collect();
+    // A plug closes the hole in the middle.
+    let plug = [(CENTRE + Vec3::Z * 0.02, 0.06), (CENTRE + Vec3::Z * 0.1, 0.05)];
+    let windings = (0..=PIECES).map(|i| coil(i as f32 / PIECES as f32));
+    let spine: Vec<(Vec3, f32)> = plug.into_iter().chain(windings).collect();
     let distance = |p: Vec3| {
         let piece = |w: &[(Vec3, f32)]| round_cone(p, w[0].0, w[1].0, w[0].1, w[1].1);
         // A little blending fills the grooves where the mesh would pinch.
