@@ -234,9 +234,9 @@ impl Motion {
             let first = block * LANES;
             if volume == VolumeMode::Free {
                 let mut logs = [[0.0; LANES]; 3];
-                for lane in 0..out.len() {
-                    let three = now.logarithms(first + lane);
-                    (0..3).for_each(|k| logs[k][lane] = three[k]);
+                for (vertex, lane) in (first..).zip(0..out.len()) {
+                    let three = now.logarithms(vertex);
+                    logs.iter_mut().zip(three).for_each(|(row, log)| row[lane] = log);
                 }
                 axes.stretch(&logs, out);
             } else {

@@ -19,7 +19,7 @@ use std::ops::RangeInclusive;
 
 /// A fault at a place.
 pub(super) fn fault(place: Place, kind: impl Into<Kind>) -> MotionRigFault {
-    MotionRigFault { place, kind: kind.into() }
+    MotionRigFault { place, kind: Box::new(kind.into()) }
 }
 
 /// The fields and charts of a rig, on its mesh.

@@ -17,7 +17,7 @@ pub struct MotionRigFault {
     pub place: MotionRigPlace,
     /// What is wrong with it.
     #[source]
-    pub kind: MotionRigFaultKind,
+    pub kind: Box<MotionRigFaultKind>,
 }
 
 /// A value of a rig by the names that rig files use.

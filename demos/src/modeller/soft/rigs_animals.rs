@@ -40,7 +40,14 @@ pub fn jellyfish(name: &str) -> RigDescription {
     }
     let level = |value, y: f32| section(value, Vec3::Y * y, Vec3::Y);
     // The bell contracts most at its rim; the tentacles are carried along.
-    rig.amplitude = vec![level(0.2, 0.46), level(0.75, 0.2), level(1.0, 0.02), level(0.0, -0.3), level(0.0, -0.85)];
+    rig.amplitude = vec![
+        level(0.2, 0.46),
+        level(0.75, 0.2),
+        level(1.0, 0.02),
+        level(0.0, -0.3),
+        level(0.0, -0.7),
+        level(0.0, -1.15),
+    ];
     rig.phase = vec![level(0.0, 0.45), level(0.12, 0.2), level(0.25, 0.0), level(0.6, -0.4), level(1.0, -0.85)];
     rig
 }
