@@ -13,10 +13,11 @@ use glam::Mat3;
 use pliant::math::{Pose, Vec3};
 use pliant::mesh::TetrahedralMesh;
 use pliant::procdef::{ProcDefBody, ProcDefRigBuilder, Stiffness};
+use rayon::prelude::*;
 use tetrahedra::{bell, block};
 
 /// The best of many steps, in milliseconds; the bodies move, so that the rotations do.
-fn milliseconds(mesh: TetrahedralMesh, count: usize, stiffness: Stiffness) -> f64 {
+fn milliseconds(mesh: TetrahedralMesh, count: usize, stiffness: Stiffness, threads: bool) -> f64 {
     let n = mesh.vertex_count();
     let rig = Arc::new(ProcDefRigBuilder::new(mesh).build().expect("a rig"));
     let mut bodies: Vec<ProcDefBody> = (0..count).map(|_| ProcDefBody::new(rig.clone(), &Pose::IDENTITY)).collect();
@@ -33,8 +34,14 @@ fn milliseconds(mesh: TetrahedralMesh, count: usize, stiffness: Stiffness) -> f6
             })
             .collect();
         let start = Instant::now();
-        for body in &mut bodies {
-            body.pulls(&local, 1.0 / 60.0);
+        if threads {
+            bodies.par_iter_mut().for_each(|body| {
+                body.pulls(&local, 1.0 / 60.0);
+            });
+        } else {
+            bodies.iter_mut().for_each(|body| {
+                body.pulls(&local, 1.0 / 60.0);
+            });
         }
         best = best.min(start.elapsed().as_secs_f64());
         for body in &mut bodies {
@@ -60,12 +67,13 @@ fn main() {
         ("heart", &heart, 1, 6),
         ("bowel", &bowel, 1, 6),
     ];
-    println!("body, vertices, bodies, N: ms for N, ms for N = 1, ms for the global solve");
+    println!("body, vertices, bodies, N: ms for N, ms for N = 1, ms for the global solve, ms for N with all cores");
     for (name, mesh, count, n) in rows {
         let times = [Stiffness::Iterations(n), Stiffness::Iterations(1), Stiffness::Solve(0.8)]
-            .map(|stiffness| milliseconds(mesh(), count, stiffness));
+            .map(|stiffness| milliseconds(mesh(), count, stiffness, false));
+        let parallel = milliseconds(mesh(), count, Stiffness::Iterations(n), true);
         println!(
-            "{name:12} {:5} {count:4} {n:2}: {:.3} {:.3} {:.3}",
+            "{name:12} {:5} {count:4} {n:2}: {:.3} {:.3} {:.3} {parallel:.3}",
             mesh().vertex_count(),
             times[0],
             times[1],

@@ -6,7 +6,7 @@ use crate::math::Vec3;
 /// Passes over all vertices.
 const PASSES: u32 = 12;
 /// A vertex goes onto a sharp edge or corner if none of its cells gets worse than this.
-const SHARP_QUALITY: f32 = 0.06;
+const SHARP_QUALITY: f32 = 0.12;
 
 /// Moves the vertices. `project` gives the nearest point of the surface, `sharp` the nearest sharp feature within reach.
 pub(super) fn smooth(
@@ -32,7 +32,7 @@ pub(super) fn smooth(
     let mut fixed = vec![false; positions.len()];
     for pass in 0..PASSES {
         // First the cells get better, then features are caught, then the rest follows.
-        if pass >= 2 && pass + 2 < PASSES {
+        if pass % 4 == 2 {
             for v in (0..positions.len()).filter(|&v| !surface[v].is_empty()) {
                 let before = positions[v];
                 if let Some(target) = sharp(before).filter(|_| !fixed[v]) {

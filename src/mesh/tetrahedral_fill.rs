@@ -14,7 +14,7 @@ const MOST_CELLS: f64 = 5e6;
 /// Two triangles meet sharply where their normals differ by more than this, in degrees.
 const SHARP_DEGREES: f32 = 40.0;
 /// Vertices of the boundary go onto sharp features within so many cell sizes.
-const SHARP_REACH: f32 = 0.6;
+const SHARP_REACH: f32 = 0.45;
 
 /// How well a tetrahedral mesh fills a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,8 @@ pub struct FillReport {
 /// Fills a closed surface, facing outward, with tetrahedra of about this size in metres; the boundary of the cells follows the
 /// surface, catches its sharp edges where the cells allow it, and no cell is inside out.
 ///
-/// What is thinner than a cell is lost, and the report tells so by its Hausdorff distance: choose smaller cells.
+/// What is thinner than a cell is lost, and sharp edges and corners that the cells do not allow to be caught are cut off by up to
+/// a cell: the report tells so by its Hausdorff distance. Choose smaller cells then.
 ///
 /// # Errors
 /// The surface is open or not facing outward, the size of the cells is not positive or makes more than five million of them,

@@ -200,8 +200,7 @@ pub(super) fn cell_volume([a, b, c, d]: [DVec3; 4]) -> f64 {
 /// True when a tetrahedron of that volume has no volume to speak of: [`FLAT_CELL`].
 pub(super) fn is_flat(x: [DVec3; 4], volume: f64) -> bool {
     let longest = CELL_EDGES.iter().map(|&[a, b]| x[a].distance_squared(x[b])).fold(0.0, f64::max).sqrt();
-    // Written so that NaN is flat.
-    !(volume.abs() > FLAT_CELL * longest.powi(3))
+    volume.is_nan() || volume.abs() <= FLAT_CELL * longest.powi(3)
 }
 
 fn check(positions: &[Vec3], cells: &[[u32; 4]]) -> Result<(), TetrahedralError> {

@@ -126,8 +126,7 @@ fn a_signal_comes_later_where_the_phase_shift_is_larger_and_backwards_with_a_neg
 #[test]
 fn a_stimulus_arrives_after_distance_over_speed_with_its_damped_amplitude_and_passes_once() {
     let mesh = bar([12, 2, 2], 0.25);
-    let mut pulse = DeformationCharts::default();
-    pulse.cycle = 0.5;
+    let mut pulse = DeformationCharts { cycle: 0.5, ..DeformationCharts::default() };
     pulse.charts[0] = LineChart::through(&[[0.0, 1.0], [0.5, 0.5]], ChartInterpolation::Linear).unwrap();
     let (speed, damping, dt) = (0.7, 3.0, 1.0 / 120.0);
     let response = StimulusSettings { charts: pulse, speed, damping };
