@@ -6,11 +6,12 @@
 //! cancelled on the visible surface.
 //!
 //! Modules, each importing only from those to its right:
-//! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`], [`procdef`] → [`spring`], [`field`], [`mesh`] → [`math`].
+//! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`], [`procdef`] → [`spring`], [`field`], [`mesh`], [`files`] → [`math`].
 
 pub mod coupling;
 pub mod elastic;
 pub mod field;
+pub mod files;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod math;
