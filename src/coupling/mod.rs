@@ -13,6 +13,7 @@ mod pairs;
 mod penetrations;
 mod piercing;
 mod probes;
+pub mod procdef;
 mod skin_point;
 mod strength;
 

@@ -138,6 +138,26 @@ impl ProcDefBody {
         }
     }
 
+    /// Changes the velocities as the body wants to move in a step of `h` seconds: pulls by equation (8), damping, volumes if they
+    /// are kept. What moves the vertices by them is not done here: a world with contacts does it, see [`crate::world`].
+    /// Without a time, as for `h = 0`, nothing is changed.
+    pub fn drive(&mut self, local: &[Mat3], h: f32) {
+        if !(h > 0.0 && h.is_finite()) {
+            return;
+        }
+        self.pulls(local, h);
+        for (v, &pull) in self.velocities.iter_mut().zip(&self.pulls) {
+            *v += pull / h;
+        }
+        let kept = (-self.settings.damping.max(0.0) * h).exp();
+        if kept < 1.0 {
+            damp(self.rig.masses(), &self.positions, &mut self.velocities, kept);
+        }
+        if self.settings.keep_volume {
+            self.keep_volume(local, h, None);
+        }
+    }
+
     /// One step of `h` seconds of the body alone: equations (8) and (9), damping, gravity in m/s² and, if given, a plane.
     pub fn step(&mut self, local: &[Mat3], h: f32, gravity: Vec3, plane: Option<&GroundPlane>) {
         if !(h > 0.0 && h.is_finite()) {

@@ -14,6 +14,7 @@ mod global_solve;
 mod line_chart;
 mod line_field;
 mod matching;
+mod model;
 mod motion;
 mod ordering;
 mod orientation;
@@ -45,6 +46,7 @@ pub use embedded_skin::{DeformedSkin, EmbeddedSkin, EmbeddingReport, SkinBinding
 pub use excitation::{excitation, excitation_colour};
 pub use geodesic::GeodesicMesh;
 pub use line_chart::{ChartError, ChartInterpolation, ChartPoint, LineChart};
+pub use model::{ProcDefModel, RigidAttachment};
 pub use motion::{CyclicMotion, Motion, MotionError, MotionFields, MotionRig};
 pub use orientation::{DirectionStroke, OrientationError, OrientationField};
 pub use paint::{Brush, Canvas, PaintError, STROKE_REACH};
