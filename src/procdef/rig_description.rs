@@ -193,7 +193,7 @@ pub struct WaterDescription {
     pub tangential_drag: f32,
 }
 
-/// Friction that differs along and against a direction.
+/// Friction that differs along and against a direction. While the cycle runs backwards, the two change places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroundDescription {

@@ -140,7 +140,9 @@ impl ProcDefEntry {
             act_of_water(&self.model, water, gravity, dt, &mut self.body);
         }
         if let Some(directions) = &self.directions {
-            directions.brake(&mut self.body, ground, &self.impulses, gravity * dt);
+            let speed = self.model.motion.cyclic().map_or(1.0, |cyclic| cyclic.speed);
+            let turned = self.motion.pace * speed < 0.0;
+            directions.brake(&mut self.body, ground, &self.impulses, gravity * dt, turned);
         }
         if let Some(grip) = &self.grip {
             grip.pull(&mut self.body, dt);

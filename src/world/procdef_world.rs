@@ -225,6 +225,21 @@ impl ProcDefWorld {
         &self.report
     }
 
+    /// Takes `substeps` steps (at least one) of `physics` and of these bodies, together as long as rapier's own time step, which is
+    /// the same afterwards. What hangs on few vertices, or stands on them, sinks by the square of a step's length: see the limits
+    /// in the architecture.
+    pub fn advance(&mut self, physics: &mut PhysicsWorld, substeps: u32) -> &ProcDefStepReport {
+        let whole = physics.integration_parameters.dt;
+        let substeps = substeps.max(1);
+        physics.integration_parameters.dt = whole / substeps as f32;
+        for _ in 0..substeps {
+            physics.step();
+            self.step(physics);
+        }
+        physics.integration_parameters.dt = whole;
+        &self.report
+    }
+
     /// Reads all bodies after a step of `physics` and drives them for its next one. Never panics on the state of the world:
     /// bodies whose particles are gone or not finite are frozen and reported.
     pub fn step(&mut self, physics: &mut PhysicsWorld) -> &ProcDefStepReport {

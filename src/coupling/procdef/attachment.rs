@@ -3,9 +3,7 @@
 //! Each vertex is held at its place on the rigid body by rapier's point constraint, which acts on both. The goals of shape
 //! matching know nothing of it: the neighbours of held vertices follow in the next steps.
 
-use rapier3d::dynamics::{
-    GenericJointBuilder, JointAxesMask, RigidBodyBuilder, RigidBodyHandle, SoftBodyHandle,
-};
+use rapier3d::dynamics::{GenericJointBuilder, JointAxesMask, RigidBodyBuilder, RigidBodyHandle, SoftBodyHandle};
 use rapier3d::geometry::ColliderBuilder;
 
 use super::{ProcDefSets, ProcDefStart};

@@ -2,7 +2,8 @@
 //!
 //! Coulomb's law with three coefficients: the impulse on a vertex lies in the ellipse whose half axes are the coefficients
 //! along the direction (forward or backward, as the vertex slides) and across it, times the normal impulse. The normal impulse is
-//! that of rapier's last step. Rapier has the least of the coefficients itself; here the rest is added. What is fixed takes any
+//! that of rapier's last step. A body whose cycle runs backwards turns its bristles, as earthworms do: forward and backward change
+//! places. Rapier has the least of the coefficients itself; here the rest is added. What is fixed takes any
 //! impulse, so that nothing has to be given back.
 
 use super::GroundContact;
@@ -43,8 +44,15 @@ impl GroundDirections {
     }
 
     /// Changes the velocities of the vertices on the ground. `impulses` are those of rapier's last step, `gravity_step` what
-    /// gravity adds in the next one.
-    pub fn brake(&self, body: &mut ProcDefBody, contacts: &[GroundContact], impulses: &[Vec3], gravity_step: Vec3) {
+    /// gravity adds in the next one. `turned` exchanges forward and backward.
+    pub fn brake(
+        &self,
+        body: &mut ProcDefBody,
+        contacts: &[GroundContact],
+        impulses: &[Vec3],
+        gravity_step: Vec3,
+        turned: bool,
+    ) {
         let ground = &self.ground;
         let least = ground.forward.min(ground.backward).min(ground.sideways);
         for contact in contacts {
@@ -56,7 +64,7 @@ impl GroundDirections {
             let across = contact.normal.cross(along);
             let u = body.velocities()[v] + gravity_step;
             let slide = [u.dot(along), u.dot(across)];
-            let ahead = if slide[0] > 0.0 { ground.forward } else { ground.backward };
+            let ahead = if (slide[0] > 0.0) != turned { ground.forward } else { ground.backward };
             let limits = [ahead - least, ground.sideways - least].map(|mu| mu.max(0.0) * pressure);
             let [a, b] = within_ellipse(slide, limits);
             body.velocities_mut()[v] -= along * a + across * b;

@@ -1,9 +1,7 @@
 //! A body as rapier's soft body: particles without elements, whose collider is the boundary. Rapier moves them, lets them touch
 //! and holds them by attachments; what drives them is written to their velocities.
 
-use rapier3d::dynamics::{
-    ImpulseJointSet, RigidBodySet, SoftBody, SoftBodyBuilder, SoftBodyHandle, SoftBodySet,
-};
+use rapier3d::dynamics::{ImpulseJointSet, RigidBodySet, SoftBody, SoftBodyBuilder, SoftBodyHandle, SoftBodySet};
 use rapier3d::geometry::{ColliderBuilder, ColliderSet, InteractionGroups};
 use rapier3d::pipeline::PhysicsWorld;
 use rapier3d::prelude::CoefficientCombineRule;

@@ -44,10 +44,11 @@ pub fn act_of_water(model: &ProcDefModel, regions: &[WaterRegion], gravity: Vec3
         let area = normal.length() / 2.0;
         let normal = normal.normalize_or_zero();
         let [p, q, r] = at.map(|v| body.velocities()[v]);
-        // A third of each corner's motion; the masses that the triangle moves with it are the whole corners'.
-        let mass = at.map(|v| masses[v]).iter().sum::<f32>();
+        // A third of the impulse on each corner. With it the mean of their velocities changes as that of one mass, and no energy
+        // comes in, however different the corners' masses are.
+        let mass = 9.0 / at.iter().map(|&v| 1.0 / masses[v]).sum::<f32>();
         let change = drag(water, (p + q + r) / 3.0 - region.flow, normal, area * h / mass);
-        at.iter().for_each(|&v| body.velocities_mut()[v] += change);
+        at.iter().for_each(|&v| body.velocities_mut()[v] += change * (mass / (3.0 * masses[v])));
     }
 }
 

@@ -14,21 +14,20 @@ use super::{jellyfish as jelly, shell, snail as body, worm as worms};
 /// Rings contract, from the top to the rim and on into the tentacles (figure 1).
 pub fn jellyfish(name: &str) -> RigDescription {
     let mut rig = rig_of(name, true);
-    let small = name.starts_with("small");
-    rig.iterations = Some(if small { 1 } else { 2 });
+    rig.stiffness = Some(0.5);
     rig.colour = Some([0.55, 0.45, 0.75]);
     rig.charts = Some(ChartsDescription {
         cycle: 1.6,
-        limit: Some(2.0),
+        limit: Some(2.5),
         volume: Some("both".into()),
         interpolation: Some("smooth".into()),
         speed: Some(1.6),
-        primary: vec![[0.0, 1.0], [0.18, 0.6], [0.32, 0.62], [0.8, 1.0]],
+        primary: vec![[0.0, 1.0], [0.12, 0.45], [0.25, 0.5], [0.9, 1.0]],
         ..ChartsDescription::default()
     });
     rig.stimulus = Some(StimulusDescription { speed: 2.0, damping: 2.0, ..StimulusDescription::default() });
     rig.contact = Some(ContactDescription { friction: 0.2, self_contact: false });
-    rig.water = Some(WaterDescription { density: 1000.0, normal_drag: 1.2, tangential_drag: 0.05 });
+    rig.water = Some(WaterDescription { density: 1000.0, normal_drag: 1.2, tangential_drag: 0.03 });
     rig.layer =
         vec![region(0.0, jelly::in_wall(0.4, 0.3, 1.0), 30.0), region(1.0, jelly::in_wall(0.5, 0.3, 0.0), 30.0)];
     for v in [0.35, 0.85] {
@@ -114,7 +113,7 @@ pub fn worm_bend() -> RigDescription {
 /// Touched, the snail draws in (figure 7). Its shell is a rigid thing on its back.
 pub fn snail() -> RigDescription {
     let mut rig = rig_of("snail", false);
-    rig.iterations = Some(3);
+    rig.stiffness = Some(0.7);
     rig.colour = Some([0.62, 0.5, 0.33]);
     rig.stimulus = Some(StimulusDescription {
         speed: 0.8,
