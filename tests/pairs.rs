@@ -44,7 +44,6 @@ fn pressed(overlap: f32, first: f32, second: f32) -> ([f32; 2], f32, [f32; 2]) {
 fn two_balls_pressed_together_touch_in_a_plane_and_keep_their_volumes() {
     for overlap in [0.02, 0.1, 0.2, 0.3] {
         let ([lowest, highest], left, volumes) = pressed(overlap, 3.0, 3.0);
-        println!("{overlap}: {lowest} {highest} left {left} volumes {volumes:?}");
         assert!(left <= 5e-3, "overlap {overlap}: {left} is left");
         // The ends meet halfway, by symmetry, within the tolerance.
         assert!(lowest.abs() < 5e-3 * RADIUS && highest.abs() < 5e-3 * RADIUS, "{lowest} and {highest}");
@@ -57,7 +56,6 @@ fn of_two_balls_the_softer_one_yields_more() {
     // Stiffness goes with the square of the frequency: one yields four times as much as the other.
     let overlap = 0.2;
     let ([lowest, highest], left, _) = pressed(overlap, 2.0, 4.0);
-    println!("{lowest} {highest} {left}");
     assert!(left <= 5e-3);
     // The first would reach down to -0.1 and yields 0.8 of 0.2.
     assert!((lowest - 0.06).abs() < 0.01 && (highest - 0.06).abs() < 0.01, "{lowest}, {highest}");
@@ -70,10 +68,10 @@ fn a_heap_of_twenty_soft_balls_comes_to_rest_without_being_seen_in_each_other() 
     let wall = |at: Vec3, half: Vec3| ColliderBuilder::cuboid(half.x, half.y, half.z).translation(at);
     for (at, half) in [
         (Vec3::new(0.0, -1.0, 0.0), Vec3::new(5.0, 1.0, 5.0)),
-        (Vec3::new(2.3, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
-        (Vec3::new(-2.3, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
-        (Vec3::new(0.0, 2.0, 2.3), Vec3::new(5.0, 3.0, 1.0)),
-        (Vec3::new(0.0, 2.0, -2.3), Vec3::new(5.0, 3.0, 1.0)),
+        (Vec3::new(2.7, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
+        (Vec3::new(-2.7, 2.0, 0.0), Vec3::new(1.0, 3.0, 5.0)),
+        (Vec3::new(0.0, 2.0, 2.7), Vec3::new(5.0, 3.0, 1.0)),
+        (Vec3::new(0.0, 2.0, -2.7), Vec3::new(5.0, 3.0, 1.0)),
     ] {
         physics.insert_collider(wall(at, half), Some(fixed));
     }
@@ -81,36 +79,21 @@ fn a_heap_of_twenty_soft_balls_comes_to_rest_without_being_seen_in_each_other() 
     let balls: Vec<_> = (0..20)
         .map(|i| {
             let at = Vec3::new(
-                0.55 * ((i % 2) as f32 * 2.0 - 1.0) + 0.05 * (i % 3) as f32,
-                0.6 + 1.05 * (i / 4) as f32,
-                0.55 * (((i / 2) % 2) as f32 * 2.0 - 1.0) - 0.03 * (i % 5) as f32,
+                1.05 * ((i % 3) as f32 - 1.0) + 0.07 * (i / 9) as f32,
+                0.55 + 1.02 * (i / 9) as f32,
+                1.05 * (((i / 3) % 3) as f32 - 1.0) - 0.05 * (i / 9) as f32,
             );
-            ball(&mut physics, &mut deformation, at, SpringCoefficients::new(3.0 + (i % 4) as f32, 0.4))
+            ball(&mut physics, &mut deformation, at, SpringCoefficients::new(5.0 + (i % 4) as f32, 0.4))
         })
         .collect();
     let mut worst: (f32, f32) = (0.0, 0.0);
     let mut fastest = 0.0_f32;
-    let steps: u32 = std::env::var("STEPS").ok().and_then(|s| s.parse().ok()).unwrap_or(600);
+    let steps = 600;
     for frame in 0..steps {
         physics.step();
         deformation.step(&mut physics);
-        if frame < 40 {
-            for ball in &balls {
-                let r = deformation.ragdoll(*ball).unwrap().bodies[0];
-                let b = &physics.bodies[r];
-                if b.linvel().length() > 6.0 || frame == 30 {
-                    println!("{frame} {:?} pos {:.2} vel {:.2}", ball, b.translation(), b.linvel());
-                }
-            }
-        }
         for (handle, body) in &deformation.report().bodies {
             assert!(body.frozen.is_none(), "frame {frame}: {handle:?} {body:?}");
-            if body.max_pair_depth > worst.0 {
-                println!(
-                    "frame {frame} {handle:?}: pair {} depth {} passes {}",
-                    body.max_pair_depth, body.penetration.max_depth_after, body.passes
-                );
-            }
             worst.0 = worst.0.max(body.max_pair_depth);
             worst.1 = worst.1.max(body.penetration.max_depth_after);
         }
@@ -121,7 +104,6 @@ fn a_heap_of_twenty_soft_balls_comes_to_rest_without_being_seen_in_each_other() 
             }
         }
     }
-    println!("worst pair {} obstacle {} fastest {fastest} times {:?}", worst.0, worst.1, deformation.report().times);
     assert!(worst.0 <= 5e-3 && worst.1 <= 1e-3, "left: {worst:?}");
     assert!(fastest < 0.02, "{fastest} m/s in the last second");
 }

@@ -6,15 +6,16 @@ use crate::field::Spread;
 use crate::math::Vec3;
 
 /// The gauge point of a contact at `point`, kept on the planes of the `others` (their contact points and directions):
-/// `g = argmin |g − c|² + w Σ (n_i · (g − c_i))²`.
-pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = (Vec3, Vec3)>) -> Vec3 {
+/// `g = argmin |g − c|² + w Σ (n_i · (g − c_i))²`, at most `reach` metres away: two planes that are nearly parallel meet far off,
+/// and the material flows sideways in proportion to the distance.
+pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = (Vec3, Vec3)>, reach: f32) -> Vec3 {
     let mut matrix = Mat3::IDENTITY;
     let mut right = Vec3::ZERO;
     for (other, normal) in others {
         matrix += outer(normal) * PLANE_WEIGHT;
         right += normal * (PLANE_WEIGHT * normal.dot(other - point));
     }
-    point + matrix.inverse() * right
+    point + (matrix.inverse() * right).clamp_length_max(reach)
 }
 
 /// Which way material gives way that a contact pushes along `normal`, between other contacts with the normals `others`:
@@ -44,7 +45,7 @@ pub fn spread_between(normal: Vec3, others: impl IntoIterator<Item = Vec3>) -> S
 const UNBARRED: f32 = 0.5;
 
 /// How much more the planes count than the distance from the contact point.
-const PLANE_WEIGHT: f32 = 1.0e3;
+const PLANE_WEIGHT: f32 = 50.0;
 
 fn outer(n: Vec3) -> Mat3 {
     Mat3::from_cols(n * n.x, n * n.y, n * n.z)

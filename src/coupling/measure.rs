@@ -1,12 +1,17 @@
 //! What a penetration looked like before the cancellation and what is left of it, by parry's exact queries.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rayon::prelude::*;
 
 use super::cancel::CancelReport;
+use super::coherence::TimeCoherence;
 use super::obstacle::ObstaclePart;
+use super::penetrations::{Contact, SAME_WAY};
+use super::piercing::deepest_on_triangle;
 use crate::elastic::ElasticBody;
+use crate::math::Vec3;
 
 /// Depths and gaps as fractions of the body's size.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,46 +20,155 @@ pub struct PenetrationFigures {
     pub max_depth_before: f32,
     /// Largest exact depth of a vertex after it.
     pub max_depth_after: f32,
-    /// Largest distance left between the skin and an obstacle that it had penetrated.
+    /// Largest depth of any point of a triangle after it; depths below [`PIERCING_RESOLUTION`] are not looked for.
+    pub max_piercing: f32,
+    /// Largest distance left between the skin of a contact that is pushed by a field of its own and the obstacle that it had
+    /// penetrated.
     pub max_gap: f32,
+    /// Largest distance to which skin was carried off an obstacle by the fields of other contacts: such a contact needs no
+    /// push of its own.
+    pub max_lift: f32,
     /// Vertices deeper than [`INSIDE`] after it.
     pub vertices_inside: u32,
+    /// True where the penetration is beyond what cancellation can do: a vertex is left deeper than [`INSIDE`], or a
+    /// triangle is pierced deeper than [`PIERCED`]. So it is where a body is pinned with no room for its volume, or where
+    /// an obstacle cuts it in two.
+    pub uncancelled: bool,
+    /// How much the cancellation has changed since the step before, against what the body and the obstacles have moved.
+    pub coherence: TimeCoherence,
 }
 
 /// A vertex counts as inside from this depth on, as a fraction of the body's size.
 pub const INSIDE: f32 = 1.0e-3;
 
-/// Measures the skin of `body` against `parts`.
+/// A triangle counts as pierced from this depth on, as a fraction of the body's size.
+pub const PIERCED: f32 = 5.0e-3;
+
+/// Triangles are searched for points deeper than this, as a fraction of the body's size.
+pub const PIERCING_RESOLUTION: f32 = 2.0e-4;
+
+/// Measures the skin of `body` against `parts`; the time coherence is left at zero.
 pub fn measure(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> PenetrationFigures {
-    let (deepest, inside) = body
-        .positions()
-        .par_iter()
-        .with_min_len(512)
-        .map(|&x| {
-            let depth = parts.iter().map(|part| part.exact_depth(x)).fold(0.0, f32::max);
-            (depth, u32::from(depth > INSIDE * size))
-        })
-        .reduce(|| (0.0, 0), |a, b| (a.0.max(b.0), a.1 + b.1));
-    let max_gap = gaps(body, parts, report).into_values().fold(0.0, f32::max);
+    let depths = exact_depths(body.positions(), parts);
+    let deepest = depths.iter().copied().fold(0.0, f32::max);
+    let vertices_inside = depths.iter().filter(|&&depth| depth > INSIDE * size).count() as u32;
+    let piercing = deepest_triangle(body, parts, PIERCING_RESOLUTION * size).max(deepest) / size;
+    let gaps = gaps(body, parts, size, report);
+    let largest = |held: bool| {
+        let of = report.contacts.iter().zip(&gaps).filter(|(contact, _)| contact.held == held);
+        of.map(|(_, gap)| *gap).fold(0.0, f32::max)
+    };
+    let max_gap = largest(true);
     PenetrationFigures {
-        max_depth_before: report.contacts.iter().map(|c| c.depth()).fold(0.0, f32::max) / size,
+        max_depth_before: report.contacts.iter().map(Contact::depth).fold(0.0, f32::max) / size,
         max_depth_after: deepest / size,
+        max_piercing: piercing,
         max_gap: max_gap / size,
-        vertices_inside: inside,
+        max_lift: largest(false) / size,
+        vertices_inside,
+        uncancelled: vertices_inside > 0 || piercing > PIERCED,
+        coherence: TimeCoherence::default(),
     }
 }
 
-/// For each obstacle that the skin had penetrated, how far the skin is from it now. The parts of one obstacle count
-/// together: they overlap, and what leaves one of them may have to stop at the next.
-fn gaps(body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) -> BTreeMap<(u32, u32), f32> {
-    let mut gaps = BTreeMap::new();
-    for contact in &report.contacts {
-        for p in &contact.points {
-            let part = &parts[p.part];
-            let gap = gaps.entry(part.collider.into_raw_parts()).or_insert(f32::INFINITY);
-            let x = p.point.position(body.positions());
-            *gap = gap.min(part.exact_distance(x));
+/// The exact depth of each vertex in the parts.
+fn exact_depths(positions: &[Vec3], parts: &[ObstaclePart]) -> Vec<f32> {
+    let depth = |&x: &Vec3| parts.iter().map(|part| part.exact_depth(x)).fold(0.0, f32::max);
+    positions.par_iter().with_min_len(512).map(depth).collect()
+}
+
+/// The largest depth of a point of any triangle in any part, where it is above `least`; zero otherwise.
+///
+/// The signed distance is convex: the planes that touch it at the three corners bound it from below, and only triangles
+/// whose bound lies below `-least` are searched.
+fn deepest_triangle(body: &ElasticBody, parts: &[ObstaclePart], least: f32) -> f32 {
+    let positions = body.positions();
+    let triangle = |t: &[u32; 3]| {
+        let corners = t.map(|v| positions[v as usize]);
+        let low = corners[0].min(corners[1]).min(corners[2]);
+        let high = corners[0].max(corners[1]).max(corners[2]);
+        let bounds = Aabb::new(low, high);
+        let mut deepest = 0.0_f32;
+        for part in parts.iter().filter(|part| part.aabb.intersects(&bounds)) {
+            let bound = |&at: &Vec3| {
+                let (height, gradient) = part.placed.signed_distance(at);
+                corners.iter().map(|x| height + gradient.dot(*x - at)).fold(f32::INFINITY, f32::min)
+            };
+            if corners.iter().all(|at| bound(at) < -least.max(deepest)) {
+                deepest = deepest.max(-deepest_on_triangle(&part.placed, corners).1);
+            }
+        }
+        if deepest > least { deepest } else { 0.0 }
+    };
+    body.rig().mesh.triangles.par_iter().with_min_len(256).map(triangle).reduce(|| 0.0, f32::max)
+}
+
+/// How far the skin of each contact is from its obstacles now.
+///
+/// The parts of one obstacle count together: they overlap, and what leaves one of them may have to stop at the next.
+/// Contacts beside each other that push the same way, with one part or with parts that touch each other, count together
+/// too: the deepest decides how far they are carried.
+fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> Vec<f32> {
+    let mut obstacles: BTreeMap<(u32, u32), Vec<&ObstaclePart>> = BTreeMap::new();
+    for part in parts {
+        obstacles.entry(part.collider.into_raw_parts()).or_default().push(part);
+    }
+    let gap = |contact: &Contact| {
+        let colliders: BTreeSet<(u32, u32)> =
+            contact.parts().into_iter().map(|part| parts[part].collider.into_raw_parts()).collect();
+        let obstacle: Vec<&ObstaclePart> =
+            colliders.iter().flat_map(|collider| &obstacles[collider]).copied().collect();
+        contact_gap(body, contact, &obstacle, PIERCING_RESOLUTION * size)
+    };
+    let own: Vec<f32> = report.contacts.par_iter().map(gap).collect();
+    let together = |a: &Contact, b: &Contact| {
+        let along = a.near.normal.dot(b.near.normal);
+        let touch = || parts[a.near.part].aabb.intersects(&parts[b.near.part].aabb);
+        overlap(a, b) && (a.near.part == b.near.part && along > ROUGHLY || along > SAME_WAY && touch())
+    };
+    let least = |a: &Contact| {
+        let others = report.contacts.iter().zip(&own).filter(|(b, _)| together(a, b));
+        others.map(|(_, gap)| *gap).fold(f32::INFINITY, f32::min)
+    };
+    report.contacts.iter().map(least).collect()
+}
+
+/// Cosine from which on two contacts with one part push the same way.
+const ROUGHLY: f32 = 0.5;
+
+/// True where two contacts are beside each other.
+fn overlap(a: &Contact, b: &Contact) -> bool {
+    a.centre.distance(b.centre) <= a.radius + b.radius
+}
+
+/// The distance between the skin of a contact and an obstacle, zero where it is at most `close`.
+///
+/// Vertices first; then the triangles around them, whose nearest point may lie between the corners.
+fn contact_gap(body: &ElasticBody, contact: &Contact, obstacle: &[&ObstaclePart], close: f32) -> f32 {
+    let positions = body.positions();
+    let exact = |x: Vec3| obstacle.iter().map(|part| part.exact_distance(x)).fold(f32::INFINITY, f32::min);
+    let mut best = f32::INFINITY;
+    for p in &contact.points {
+        best = best.min(exact(p.point.position(positions)));
+        if best <= close {
+            return 0.0;
         }
     }
-    gaps
+    let members: Vec<usize> = contact.points.iter().flat_map(|p| p.point.corners()).map(|(v, _)| v).collect();
+    let mut is_member = vec![false; positions.len()];
+    members.iter().for_each(|&v| is_member[v] = true);
+    for t in body.rig().mesh.triangles.iter().filter(|t| t.iter().any(|&v| is_member[v as usize])) {
+        let corners = t.map(|v| positions[v as usize]);
+        let longest = corners[0].distance(corners[1]).max(corners[1].distance(corners[2]));
+        for part in obstacle {
+            // No point of the triangle is nearer than a corner by more than its longest edges.
+            if part.placed.distance(corners[1]).0 - longest < best {
+                best = best.min(deepest_on_triangle(&part.placed, corners).1.max(0.0));
+            }
+        }
+        if best <= close {
+            return 0.0;
+        }
+    }
+    best
 }

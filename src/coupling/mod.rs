@@ -3,6 +3,7 @@
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
 mod cancel;
+mod coherence;
 mod common_way;
 mod contact;
 mod gauge;
@@ -18,6 +19,7 @@ mod skin_point;
 mod strength;
 
 pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
+pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use gauge::gauge_point;
@@ -28,9 +30,9 @@ pub use obstacle::{
 };
 pub use pairs::{
     HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
-    segment_bounds,
+    segment_bounds, self_pairs,
 };
-pub use penetrations::{Contact, Penetration, find_contacts, find_piercings};
+pub use penetrations::{Contact, Penetration, find_contacts, find_guards, find_piercings};
 pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};
 pub use skin_point::SkinPoint;
 mod foundation;
@@ -42,7 +44,7 @@ pub use foundation::{
     FoundationSettings, PairApproaches, PairPoint, StepSize, pair_contacts, push_back, remember_pair_contacts,
     remember_skin_contacts, skin_contacts,
 };
-pub use measure::{INSIDE, PenetrationFigures, measure};
+pub use measure::{INSIDE, PIERCED, PIERCING_RESOLUTION, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;
 pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities};

@@ -36,6 +36,13 @@ pub struct Contact {
     pub radius: f32,
     /// True where the points lie within triangles, whose corners are outside.
     pub pierced: bool,
+    /// True where the contact's own field pushes; false where the fields of others carry the skin out, and beyond.
+    pub held: bool,
+    /// How far the contact's own fields have pushed so far, in metres.
+    pub pushed: f32,
+    /// 0 for points that have gone in. A guard's points are outside still, at depths from minus this height to 0: others may
+    /// push them in.
+    pub guards: f32,
 }
 
 /// The contacts of a skin with the parts near it, vertices deeper than `tolerance` only.
@@ -106,6 +113,86 @@ pub fn find_piercings(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proxim
     contacts
 }
 
+/// Contacts that are none yet: parts that the skin is within `height` metres of. Whoever pushes the skin elsewhere must not
+/// push it into them.
+pub fn find_guards(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    contacts: &[Contact],
+    height: f32,
+) -> Vec<Contact> {
+    let touches = |near: &&Proximity| {
+        let own = |contact: &Contact| contact.near.segment == near.segment && contact.parts().contains(&near.part);
+        !contacts.iter().any(own)
+    };
+    let guard = |near: &Proximity| {
+        let (part, skin) = (&parts[near.part], &body.skins()[usize::from(near.segment)]);
+        let around = part.aabb.loosened(height);
+        let close = |&vertex: &u32| {
+            let x = body.positions()[vertex as usize];
+            if !around.contains_local_point(x) {
+                return None;
+            }
+            let (distance, out) = part.placed.signed_distance(x);
+            let before = distance < height && out.dot(near.normal) > BEFORE;
+            before.then_some(Penetration {
+                point: SkinPoint::vertex(vertex),
+                part: near.part,
+                depth: -distance.max(0.0),
+            })
+        };
+        let mut points: Vec<Penetration> = skin.vertices.iter().filter_map(close).collect();
+        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
+        points.truncate(GUARDED);
+        (!points.is_empty()).then(|| Contact::guarding(body, *near, points, height))
+    };
+    let idle: Vec<&Proximity> = near.iter().filter(touches).collect();
+    idle.par_iter().map(|near| guard(near)).collect::<Vec<_>>().into_iter().flatten().collect()
+}
+
+/// Most points that are guarded at one part.
+const GUARDED: usize = 64;
+
+/// Points lie before a part where the cosine between their way from it and the contact's is above this.
+const BEFORE: f32 = 0.5;
+
+/// Adds contacts of pierced triangles to those of vertices: points of the same segment and part that go the same way make one.
+pub fn add_piercings(body: &ElasticBody, parts: &[ObstaclePart], pierced: Vec<Contact>, contacts: &mut Vec<Contact>) {
+    for piercing in pierced {
+        match contacts.iter_mut().find(|contact| contact.goes_with(&piercing, parts)) {
+            Some(contact) => {
+                contact.absorb(body, parts, &piercing);
+                let Contact { near, points, .. } = contact.clone();
+                *contact = Contact::new(body, near, points);
+            }
+            None => contacts.push(piercing),
+        }
+    }
+}
+
+/// Adds guards to contacts: those that go the same way as a contact watch over its neighbourhood, the others stand by
+/// themselves.
+pub fn add_guards(body: &ElasticBody, parts: &[ObstaclePart], guards: Vec<Contact>, contacts: &mut Vec<Contact>) {
+    for guard in guards {
+        match contacts.iter_mut().position(|contact| contact.goes_with(&guard, parts)) {
+            Some(at) => {
+                let height = contacts[at].guards;
+                contacts[at].absorb(body, parts, &guard);
+                let Contact { near, points, .. } = contacts[at].clone();
+                let joined = Contact::guarding(body, near, points, height);
+                contacts[at] = Contact {
+                    pierced: contacts[at].pierced,
+                    held: contacts[at].held,
+                    pushed: contacts[at].pushed,
+                    ..joined
+                };
+            }
+            None => contacts.push(guard),
+        }
+    }
+}
+
 /// A way out is taken where it is at most this many times as long as the shortest.
 const ASKEW: f32 = 5.0;
 
@@ -118,12 +205,7 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
     contacts.sort_by(|a, b| b.depth().total_cmp(&a.depth()).then(a.near.part.cmp(&b.near.part)));
     let mut groups: Vec<Contact> = Vec::new();
     for contact in contacts {
-        let joins = |group: &&mut Contact| {
-            group.near.segment == contact.near.segment
-                && group.near.normal.dot(contact.near.normal) > SAME_WAY
-                && group.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[contact.near.part].aabb))
-        };
-        match groups.iter_mut().find(joins) {
+        match groups.iter_mut().find(|group| group.goes_with(&contact, parts)) {
             Some(group) => group.absorb(body, parts, &contact),
             None => groups.push(contact),
         }
@@ -131,23 +213,31 @@ fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>
     groups.into_iter().map(|group| Contact::new(body, group.near, group.points)).collect()
 }
 
+/// Skin of a cancelled contact is watched that is farther off than the nearest by at most this part of the size.
+const WATCHED: f32 = 0.03;
+
 /// Cosine between two directions that count as one.
-const SAME_WAY: f32 = 0.82;
+pub(super) const SAME_WAY: f32 = 0.82;
 
 impl Contact {
-    fn new(body: &ElasticBody, near: Proximity, mut points: Vec<Penetration>) -> Self {
-        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
-        let out = |p: &Penetration| p.point.position(body.positions()) + near.normal * p.depth;
-        let weight: f32 = points.iter().map(|p| p.depth).sum();
-        let centre = points.iter().map(|p| out(p) * p.depth).sum::<Vec3>() / weight;
-        let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * p.depth).sum();
-        let pierced = points.iter().all(|p| !p.point.is_vertex());
-        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced }
+    fn new(body: &ElasticBody, near: Proximity, points: Vec<Penetration>) -> Self {
+        Self::guarding(body, near, points, 0.0)
     }
 
-    /// Depth of the deepest point.
+    fn guarding(body: &ElasticBody, near: Proximity, mut points: Vec<Penetration>, guards: f32) -> Self {
+        points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
+        let out = |p: &Penetration| p.point.position(body.positions()) + near.normal * p.depth;
+        let weigh = |p: &Penetration| (p.depth + guards).max(f32::MIN_POSITIVE);
+        let weight: f32 = points.iter().map(weigh).sum();
+        let centre = points.iter().map(|p| out(p) * weigh(p)).sum::<Vec3>() / weight;
+        let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * weigh(p)).sum();
+        let pierced = points.iter().all(|p| !p.point.is_vertex());
+        Self { near, points, centre, radius: 2.0 * (spread / weight).sqrt(), pierced, held: false, pushed: 0.0, guards }
+    }
+
+    /// Depth of the deepest point, 0 for a guard.
     pub fn depth(&self) -> f32 {
-        self.points.first().map_or(0.0, |p| p.depth)
+        self.points.first().map_or(0.0, |p| p.depth.max(0.0))
     }
 
     /// The deepest point by the shortest way out, in metres.
@@ -184,6 +274,35 @@ impl Contact {
         if points.is_empty() { self } else { Self::new(body, near, points) }
     }
 
+    /// The contact after it was cancelled, as a guard of the skin that is nearest to its parts now, and how far that is from
+    /// them. None for a contact that no field of its own has pushed.
+    pub fn watched(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Option<(Self, f32)> {
+        if !self.held {
+            return None;
+        }
+        let distance = |p: &Penetration| parts[p.part].placed.distance(p.point.position(body.positions())).0;
+        let points: Vec<Penetration> = self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
+        let gap = points.iter().map(|p| -p.depth).fold(f32::INFINITY, f32::min);
+        let height = gap + WATCHED * body.skins()[usize::from(self.near.segment)].size;
+        let points: Vec<Penetration> = points.into_iter().filter(|p| -p.depth < height).collect();
+        let near = self.nearest_of(&points);
+        let guard = Self::guarding(body, near, points, height);
+        Some((Self { held: true, pushed: self.pushed, ..guard }, gap))
+    }
+
+    /// The proximity with the part of the nearest of these points.
+    fn nearest_of(&self, points: &[Penetration]) -> Proximity {
+        let nearest = points.iter().max_by(|a, b| a.depth.total_cmp(&b.depth));
+        Proximity { part: nearest.map_or(self.near.part, |p| p.part), ..self.near }
+    }
+
+    /// True where another contact of the segment, with a part that touches one of this one's, pushes nearly the same way.
+    fn goes_with(&self, other: &Contact, parts: &[ObstaclePart]) -> bool {
+        self.near.segment == other.near.segment
+            && self.near.normal.dot(other.near.normal) > SAME_WAY
+            && self.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[other.near.part].aabb))
+    }
+
     /// Takes over the points of another contact, with their depths along this one's direction.
     fn absorb(&mut self, body: &ElasticBody, parts: &[ObstaclePart], other: &Contact) {
         let reach = 2.0 * body.skins()[usize::from(self.near.segment)].size;
@@ -191,7 +310,10 @@ impl Contact {
             self.points.iter().enumerate().map(|(i, p)| (p.point.vertices, i)).collect();
         for p in &other.points {
             let x = p.point.position(body.positions());
-            let depth = parts[p.part].exit(x, self.near.normal, reach).unwrap_or(p.depth);
+            // Beside a flank the common way may be long: then the point's own depth tells how much is asked of it.
+            let reach = if p.point.is_vertex() { reach } else { ASKEW * p.depth };
+            let depth =
+                parts[p.part].exit(x, self.near.normal, reach).filter(|depth| *depth < reach).unwrap_or(p.depth);
             match places.get(&p.point.vertices).map(|&i| &mut self.points[i]) {
                 Some(own) if own.depth >= depth => {}
                 Some(own) => *own = Penetration { depth, ..*p },

@@ -46,28 +46,30 @@ impl Probes {
         contacts.par_iter().zip(&self.0).map(judge).collect()
     }
 
-    /// Looks at all vertices of the contacts under `pass` and adds those that the probes left inside: true if any.
+    /// Looks at all points of the contacts under `pass` and adds those that end deeper than their contact's `aim` (a gap) by
+    /// more than `tolerance`: true if any.
     pub fn extend(
         &mut self,
         body: &ElasticBody,
         pass: &CollisionPass,
         contacts: &[Contact],
         parts: &[ObstaclePart],
+        aim: &[f32],
         tolerance: f32,
     ) -> bool {
-        let missed = |contact: &Contact| {
+        let missed = |contact: &Contact, aim: f32| {
             let outcomes = contact.points.par_iter().with_min_len(32);
             let mut inside: Vec<(Outcome, Penetration)> = outcomes
                 .map(|p| (outcome(body, pass, contact, parts, p), *p))
-                .filter(|(outcome, _)| outcome.gap < -tolerance)
+                .filter(|(outcome, _)| outcome.gap < aim - tolerance)
                 .collect();
             inside.sort_by(|(a, _), (b, _)| a.gap.total_cmp(&b.gap).then(a.point.vertices.cmp(&b.point.vertices)));
             inside.truncate(PROBES_SPREAD);
             inside
         };
         let mut any = false;
-        for (contact, probes) in contacts.iter().zip(&mut self.0) {
-            for (_, missed) in missed(contact) {
+        for ((contact, probes), &aim) in contacts.iter().zip(&mut self.0).zip(aim) {
+            for (_, missed) in missed(contact, aim) {
                 if !probes.contains(&missed) {
                     probes.push(missed);
                     any = true;
@@ -88,7 +90,7 @@ fn outcome(
 ) -> Outcome {
     let Penetration { point, part, .. } = *probe;
     let x = point.flow(body, pass);
-    let gap = match parts[part].exit(x, contact.near.normal, 2.0 * contact.depth()) {
+    let gap = match parts[part].exit(x, contact.near.normal, 2.0 * (contact.depth() + contact.guards)) {
         Some(depth) => -depth,
         None => parts[part].placed.distance(x).0,
     };

@@ -13,16 +13,19 @@ use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField, S
 use crate::field::{HuggingField, Lipschitz, Patch, usual_steps};
 use crate::math::{Pose, Vec3};
 
-/// The fields of one pass, their strengths solved so that every contact ends touching.
+/// The fields of one pass, and their strengths, solved so that every contact ends touching or needs no push of its own.
+///
+/// `least` are the least strengths: 0, or minus what the contact's own fields have pushed before, which may be taken back.
 pub(super) fn solve_pass(
     body: &ElasticBody,
     parts: &[ObstaclePart],
     near: &[Proximity],
     contacts: &[Contact],
+    least: &[f32],
     softness: f32,
     size: f32,
     settings: &CancelSettings,
-) -> CollisionPass {
+) -> (CollisionPass, Vec<f32>) {
     let n = contacts.len();
     let mut pass = CollisionPass { fields: place_fields(body, parts, near, contacts, softness), steps: 1 };
     let mut strength: Vec<f32> = contacts.iter().map(Contact::depth).collect();
@@ -34,7 +37,10 @@ pub(super) fn solve_pass(
     strength.iter_mut().for_each(|strength| *strength *= part);
     let gap_tolerance = settings.gap_tolerance * size;
     let slack = 0.5 * settings.depth_tolerance * size;
+    let deepest = contacts.iter().map(Contact::depth).chain(least.iter().map(|least| -least)).fold(0.0, f32::max);
+    let strongest = STRONGEST * deepest;
     let mut probes = Probes::new(contacts);
+    let mut best = (f32::INFINITY, strength.clone());
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
         let outcome = probes.outcomes(body, &pass, contacts, parts);
@@ -42,9 +48,16 @@ pub(super) fn solve_pass(
             .iter()
             .zip(&strength)
             .zip(&aim)
-            .any(|((o, &s), aim)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > 0.0));
-        if !open && (part < 1.0 || !probes.extend(body, &pass, contacts, parts, settings.depth_tolerance * size)) {
+            .zip(least)
+            .any(|(((o, s), aim), least)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > least));
+        let missed = !open && probes.extend(body, &pass, contacts, parts, &aim, settings.depth_tolerance * size);
+        if !open && !missed {
+            best = (0.0, strength);
             break;
+        }
+        let score = if missed { f32::INFINITY } else { openness(&outcome, &strength, &aim, least) };
+        if score < best.0 {
+            best = (score, strength.clone());
         }
         let matrix = influence(body, &pass, contacts, &outcome, &strength);
         let wanted: Vec<f32> = (0..n)
@@ -53,15 +66,34 @@ pub(super) fn solve_pass(
                 row.iter().zip(&strength).map(|(a, s)| a * s).sum::<f32>() + aim[i] - outcome[i].gap
             })
             .collect();
-        complementarity(&matrix, &wanted, &mut strength);
-        for (strength, contact) in strength.iter_mut().zip(contacts) {
-            *strength = strength.min(STRONGEST * contact.depth());
+        complementarity(&matrix, &wanted, least, &mut strength);
+        for strength in &mut strength {
+            *strength = strength.min(strongest);
         }
     }
+    let strength = best.1;
     set_strengths(&mut pass, contacts, &strength, body, settings);
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
-    pass
+    (pass, strength)
 }
+
+/// How far the contacts are from touching: the worst depth that is left, and to a part the widest gap.
+fn openness(outcome: &[Outcome], strength: &[f32], aim: &[f32], least: &[f32]) -> f32 {
+    let of = |(((o, s), aim), least): (((&Outcome, &f32), &f32), &f32)| {
+        let gap = o.gap - aim;
+        if gap < 0.0 {
+            -gap
+        } else if s > least {
+            GAP_COUNTS * gap
+        } else {
+            0.0
+        }
+    };
+    outcome.iter().zip(strength).zip(aim).zip(least).map(of).fold(0.0, f32::max)
+}
+
+/// How much a gap counts beside a depth.
+const GAP_COUNTS: f32 = 0.5;
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
 /// one of them then flows towards the next, and the strengths are right for a short way only.
@@ -80,7 +112,7 @@ const AGAINST_EACH_OTHER: f32 = -0.3;
 /// What is gone in one pass against others, in sizes of the body.
 const STRIDE: f32 = 0.12;
 
-/// A field is at most this many times as strong as its contact is deep: more would mean that it works against others,
+/// A field is at most this many times as strong as the deepest contact is deep: more would mean that it works against others,
 /// and the next pass, with new contacts, does better.
 const STRONGEST: f32 = 2.0;
 
@@ -101,11 +133,12 @@ fn place_fields(
             let others = contacts.iter().enumerate().filter(|&(i, _)| i != j);
             others.map(|(_, other)| (other.centre, other.near.normal))
         };
-        let gauge = gauge_point(contact.centre, others());
+        let gauge = gauge_point(contact.centre, others(), body.skins()[usize::from(contact.near.segment)].size);
         let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
-        let patch = Patch { centre: contact.centre, radius: contact.radius, width };
+        let beside = width + lat() * contact.radius;
+        let patch = Patch { centre: contact.centre, radius: contact.radius, width: beside };
         SegmentField {
             shares: shares(body, parts, contact, near),
             field: CollisionField::Hugging(HuggingField {
@@ -195,6 +228,21 @@ fn bound_of_sum(fields: &[SegmentField]) -> f32 {
     balls.iter().map(around).fold(0.0, f32::max)
 }
 
+/// Fields that push a contact deeper are made up for by a stronger one, which pushes back in turn: that ends only where all
+/// of them together do less than the contact's own field.
+fn tame(row: &mut [f32], own: usize) {
+    row[own] = row[own].max(0.0);
+    let against: f32 = row.iter().filter(|share| **share < 0.0).sum();
+    let most = -TAMED * row[own];
+    if against < most {
+        let factor = most / against;
+        row.iter_mut().filter(|share| **share < 0.0).for_each(|share| *share *= factor);
+    }
+}
+
+/// The part of a contact's own field that the others may undo.
+const TAMED: f32 = 0.7;
+
 /// `A[i][j]`: how far field `j` of unit strength moves the deciding vertex of contact `i` along its direction, from the
 /// velocities halfway.
 fn influence(
@@ -220,10 +268,12 @@ fn influence(
             let probe = HuggingField { d: contacts[j].near.normal * unit, ..field.clone() };
             let halfway = x + contact.near.normal * (0.5 * strength[i]);
             let share = weight * probe.velocity(halfway, 0.5).dot(contact.near.normal) / unit;
-            // A field that pushes another contact deeper is not made up for by a stronger one, which would push back in
-            // turn: the next pass sees what is left.
-            matrix[i * n + j] = share.max(0.0);
+            matrix[i * n + j] = share;
         }
+        tame(&mut matrix[i * n..(i + 1) * n], i);
     }
     matrix
+}
+fn lat() -> f32 {
+    std::env::var("LAT").ok().and_then(|s| s.parse().ok()).unwrap_or(1.0)
 }

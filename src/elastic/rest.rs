@@ -8,6 +8,10 @@ use crate::math::Vec3;
 pub struct SegmentSkin {
     /// Vertices whose weight for the segment is at least `MEMBER_WEIGHT` (a quarter).
     pub vertices: Vec<u32>,
+    /// Vertices that the segment moves alone: with a weight of at least `OWN_WEIGHT` (0.95).
+    pub own_vertices: Vec<u32>,
+    /// Triangles between such vertices.
+    pub own_triangles: Vec<u32>,
     /// Triangles that belong to the segment: no other has a larger share of their corners.
     pub triangles: Vec<u32>,
     /// Longest edge of these triangles at rest.
@@ -32,6 +36,9 @@ pub struct SkinSample {
     /// Unit normal in the rest pose.
     pub normal: Vec3,
 }
+
+/// Skin with less weight than this is shared with a neighbour.
+const OWN_WEIGHT: f32 = 0.95;
 
 /// A vertex belongs to a segment's contacts from this weight on: with less, the segment's field hardly moves it.
 pub const MEMBER_WEIGHT: f32 = 0.25;
@@ -63,7 +70,21 @@ impl SegmentSkin {
             a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a))
         };
         let longest_edge = triangles.iter().map(longest).fold(0.0, f32::max).sqrt();
-        Self { vertices, triangles, longest_edge, size, centroid, samples, axis: axis(rig, index) }
+        let own_vertices: Vec<u32> =
+            vertices.iter().copied().filter(|&v| owns(&rig.weights[v as usize], OWN_WEIGHT)).collect();
+        let own = |&t: &u32| rig.mesh.triangles[t as usize].iter().all(|&v| owns(&rig.weights[v as usize], OWN_WEIGHT));
+        let own_triangles = triangles.iter().copied().filter(own).collect();
+        Self {
+            vertices,
+            own_vertices,
+            own_triangles,
+            triangles,
+            longest_edge,
+            size,
+            centroid,
+            samples,
+            axis: axis(rig, index),
+        }
     }
 }
 

@@ -10,9 +10,10 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
+use crate::coupling::self_pairs;
 use crate::coupling::{
-    CancelSettings, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError, PairApproaches, PartCache,
-    PartId, Ragdoll, RagdollStart,
+    CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
+    PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
@@ -108,6 +109,10 @@ pub(super) struct Entry {
     pub ragdoll: Ragdoll,
     pub groups: InteractionGroups,
     pub memories: ContactMemories,
+    /// Segments of the body that may touch each other.
+    pub self_pairs: Arc<BTreeSet<(usize, usize)>>,
+    /// For the measurement of the time coherence.
+    pub coherence: CoherenceMemory,
     /// False until the body has been placed on its rigid bodies.
     pub placed: bool,
     /// What the last deformation was made from, and what came out.
@@ -192,6 +197,11 @@ impl DeformationWorld {
         groups: InteractionGroups,
         placed: bool,
     ) -> ElasticBodyHandle {
+        let mut known = self.entries.iter().filter(|(_, entry)| Arc::ptr_eq(entry.body.rig(), body.rig()));
+        let self_pairs = match known.next() {
+            Some((_, entry)) => entry.self_pairs.clone(),
+            None => Arc::new(self_pairs(&ElasticBody::new(body.rig().clone()))),
+        };
         self.own.extend(ragdoll.bodies.iter().map(|handle| handle.into_raw_parts()));
         let rig = body.rig().clone();
         let entry = Entry {
@@ -201,6 +211,8 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            self_pairs,
+            coherence: CoherenceMemory::default(),
             placed,
             last: None,
         };

@@ -4,7 +4,7 @@ use rapier3d::parry::bounding_volume::Aabb;
 
 use super::deformation_world::{Circumstances, ElasticBodyHandle};
 use super::report::{BodyReport, Frozen};
-use crate::coupling::{CancelReport, ObstaclePart, Proximity};
+use crate::coupling::{CancelReport, ObstaclePart, Proximity, TimeCoherence};
 use crate::math::Pose;
 
 /// What one body meets in this step.
@@ -24,6 +24,8 @@ pub(super) struct Encounter {
     pub cancelled: CancelReport,
     /// Deepest overlap with another elastic body, or with itself, that is left, in metres.
     pub pair_depth: f32,
+    /// How much the cancellation has changed since the last step.
+    pub coherence: TimeCoherence,
     /// Nothing has changed since the last step: the skin stays as it is.
     pub settled: Option<BodyReport>,
     /// What to remember, where the mass-spring sets are at rest.
@@ -47,6 +49,7 @@ impl Encounter {
             stiffness: f32::INFINITY,
             cancelled: CancelReport::default(),
             pair_depth: 0.0,
+            coherence: TimeCoherence::default(),
             settled: None,
             circumstances: None,
         }

@@ -1,6 +1,6 @@
 //! Elastic bodies that meet each other or themselves: impulses that push them apart, and interfaces for their skins.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rapier3d::dynamics::RigidBodySet;
 use rayon::prelude::*;
@@ -23,15 +23,6 @@ const MARGIN: f32 = 0.15;
 /// Most points at which two segments push each other.
 const MOST_POINTS: usize = 96;
 
-/// An interface, and the index of its part among those of each of the two bodies.
-pub(super) struct PlacedInterface {
-    interface: Interface,
-    parts: [Option<usize>; 2],
-}
-
-/// The interfaces of a step.
-pub(super) type Interfaces = BTreeMap<(SegmentRef, SegmentRef), PlacedInterface>;
-
 impl DeformationWorld {
     /// The pairs of segments, of two bodies or of one, that come close; their bodies are indices of `encounters`.
     pub(super) fn find_pairs(&self, encounters: &[Encounter]) -> Vec<SegmentPair> {
@@ -41,7 +32,13 @@ impl DeformationWorld {
             return Vec::new();
         }
         let bodies: Vec<&ElasticBody> = entries.iter().map(|entry| &entry.body).collect();
-        let mut pairs = pairs_of(&bodies, |a, b| entries[a].groups.test(entries[b].groups));
+        let mut pairs = pairs_of(&bodies, |a, b| {
+            if a.body == b.body {
+                entries[a.body].self_pairs.contains(&(a.segment, b.segment))
+            } else {
+                entries[a.body].groups.test(entries[b.body].groups)
+            }
+        });
         for pair in &mut pairs {
             pair.a.body = there[pair.a.body];
             pair.b.body = there[pair.b.body];
@@ -99,53 +96,46 @@ impl DeformationWorld {
         all.into_iter().step_by(stride).collect()
     }
 
-    /// Puts an interface between each two skins that overlap: a part for each of them. True for the bodies whose parts
-    /// changed.
-    ///
-    /// The plane of a pair is found once a step; where skins bulge into each other beside it, it only grows.
+    /// Puts an interface between each two skins that overlap and have none yet: a part for each of them. True for the bodies
+    /// whose skins overlap others.
     pub(super) fn part_skins(
         &self,
         encounters: &mut [Encounter],
         pairs: &[SegmentPair],
-        interfaces: &mut Interfaces,
+        parted: &mut BTreeSet<(SegmentRef, SegmentRef)>,
     ) -> Vec<bool> {
         let mut touched = vec![false; encounters.len()];
         for (pair, overlap) in self.skin_overlaps(encounters, pairs) {
+            (touched[pair.a.body], touched[pair.b.body]) = (true, true);
+            if !parted.insert((pair.a, pair.b)) {
+                continue;
+            }
             let share = self.share(encounters, &pair);
-            let known = interfaces.get(&(pair.a, pair.b));
-            let interface = match known {
-                Some(known) => Some(known.interface.widened(&overlap)),
-                None => Interface::of(&overlap, pair.normal, pair.along, share),
-            };
-            let Some(interface) = interface else { continue };
-            let mut placed = PlacedInterface { interface, parts: known.map_or([None; 2], |known| known.parts) };
-            let index = interfaces.len() as u32;
+            let skins = self.skins_of(encounters, &pair);
+            let Some(interface) = Interface::of(&overlap, skins, pair.normal, pair.along, share) else { continue };
             for (side, at) in [pair.a, pair.b].into_iter().enumerate() {
                 let first = side == 0;
                 let yields = if first { share } else { 1.0 - share };
                 let Some(body) = self.body_at(encounters, at.body).filter(|_| yields > 0.0) else { continue };
                 let margin = MARGIN * body.skins()[at.segment].size;
-                let encounter = &mut encounters[at.body];
-                let id = placed.parts[side]
-                    .map_or(PartId { collider: (u32::MAX, u32::MAX), part: 2 * index + side as u32 }, |part: usize| {
-                        encounter.parts[part].id
-                    });
+                let id = PartId { collider: (u32::MAX, u32::MAX), part: 2 * parted.len() as u32 + side as u32 };
                 let Ok(part) = interface_part(&interface, first, margin, id) else { continue };
-                touched[at.body] = true;
-                if let Some(place) = placed.parts[side] {
-                    encounter.parts[place] = part;
-                    continue;
-                }
-                let place = encounter.parts.len();
-                let normal = if first { interface.frame.z_axis } else { -interface.frame.z_axis };
-                let axis_point = pair.axis_points[side];
-                encounter.near.push(Proximity { segment: at.segment as u16, part: place, normal, axis_point });
+                let encounter = &mut encounters[at.body];
+                let normal = if first { pair.normal } else { -pair.normal };
+                let (part_index, axis_point) = (encounter.parts.len(), pair.axis_points[side]);
+                encounter.near.push(Proximity { segment: at.segment as u16, part: part_index, normal, axis_point });
                 encounter.parts.push(part);
-                placed.parts[side] = Some(place);
             }
-            interfaces.insert((pair.a, pair.b), placed);
         }
         touched
+    }
+
+    /// The two skins of a pair; none where they belong to one body.
+    fn skins_of(&self, encounters: &[Encounter], pair: &SegmentPair) -> Option<[SkinSide<'_>; 2]> {
+        let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
+        let whole =
+            [SkinSide::whole(a, pair.a.segment, a.positions()), SkinSide::whole(b, pair.b.segment, b.positions())];
+        (pair.a.body != pair.b.body).then_some(whole)
     }
 
     /// Notes how deep skins are still in each other.
@@ -175,9 +165,11 @@ impl DeformationWorld {
 
     fn overlap(&self, encounters: &[Encounter], pair: &SegmentPair, x: &[Vec3], y: &[Vec3]) -> Option<Overlap> {
         let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
-        let (triangles_a, triangles_b) = (&a.rig().mesh.triangles, &b.rig().mesh.triangles);
-        let first = SkinSide { skin: &a.skins()[pair.a.segment], triangles: triangles_a, positions: x };
-        let second = SkinSide { skin: &b.skins()[pair.b.segment], triangles: triangles_b, positions: y };
+        let side = match pair.a.body == pair.b.body {
+            true => SkinSide::inner,
+            false => SkinSide::whole,
+        };
+        let (first, second) = (side(a, pair.a.segment, x), side(b, pair.b.segment, y));
         Some(Overlap::between(first, second, pair.normal, pair.along.unwrap_or(Vec3::ZERO)))
     }
 

@@ -1,5 +1,6 @@
 //! The deformation world: all elastic bodies of a rapier world, and the one verb that moves them.
 
+mod coherence;
 mod deformation_world;
 mod encounter;
 mod meetings;

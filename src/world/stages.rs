@@ -1,6 +1,6 @@
 //! One step, stage by stage, in order.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 use rapier3d::dynamics::RigidBodySet;
@@ -11,12 +11,11 @@ use rayon::prelude::*;
 
 use super::deformation_world::{DeformationWorld, ElasticBodyHandle, Entry, Settled};
 use super::encounter::Encounter;
-use super::meetings::Interfaces;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, cancel, measure, obstacles_near,
-    proximities, push_back, remember_pair_contacts, remember_skin_contacts, skin_contacts,
+    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, measure,
+    obstacles_near, proximities, push_back, remember_pair_contacts, remember_skin_contacts, skin_contacts,
 };
 use crate::math::{Pose, Vec3};
 
@@ -130,10 +129,13 @@ impl DeformationWorld {
     /// The first round pushes skins out of obstacles and out of each other; where that makes them bulge into each other
     /// anew, further rounds follow.
     fn cancel_penetrations(&mut self, encounters: &mut [Encounter], pairs: &[SegmentPair]) {
+        if self.settings.measure {
+            self.begin_coherence(encounters);
+        }
         let mut pairs = pairs.to_vec();
-        let mut interfaces = Interfaces::new();
+        let mut parted = BTreeSet::new();
         for round in 0..=PAIR_ROUNDS {
-            let touched = self.part_skins(encounters, &pairs, &mut interfaces);
+            let touched = self.part_skins(encounters, &pairs, &mut parted);
             if round > 0 && !touched.contains(&true) {
                 break;
             }
@@ -145,6 +147,7 @@ impl DeformationWorld {
         }
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);
+            self.measure_coherence(encounters, &parted);
         }
     }
 
@@ -154,7 +157,7 @@ impl DeformationWorld {
     }
 
     /// The bodies that are deformed in this step.
-    fn active<'a>(&'a mut self, encounters: &'a [Encounter]) -> Vec<(&'a mut Entry, &'a Encounter)> {
+    pub(super) fn active<'a>(&'a mut self, encounters: &'a [Encounter]) -> Vec<(&'a mut Entry, &'a Encounter)> {
         let entries = self.entries.iter_mut().map(|(_, entry)| entry);
         entries.zip(encounters).filter(|(_, encounter)| encounter.is_active()).collect()
     }
@@ -188,12 +191,17 @@ impl DeformationWorld {
                 let Encounter { parts, obstacles, cancelled, .. } = &mut encounter;
                 cancelled.contacts.retain(|contact| contact.near.part < *obstacles);
                 figures.penetration = measure(&entry.body, &parts[..*obstacles], entry.size, cancelled);
+                figures.penetration.coherence = encounter.coherence;
                 figures.max_pair_depth = encounter.pair_depth / entry.size;
                 let volume =
                     crate::mesh::measure::signed_volume(entry.body.positions(), &entry.body.rig().mesh.triangles);
                 figures.volume_ratio = (volume / entry.rest_volume) as f32;
+            } else {
+                entry.coherence.forget();
             }
             report.bodies.push((encounter.handle, figures));
+            // A skin that stays as it is does not change.
+            figures.penetration.coherence = TimeCoherence::default();
             let settled = |circumstances| Settled { circumstances, report: figures };
             entry.last = encounter.circumstances.map(settled);
         }

@@ -77,6 +77,7 @@ fn body(at: &At, raw: &RawBody) -> Result<Body, TomlError> {
         pose: at.pose(raw.position, raw.rotation_degrees)?,
         velocity: at.finite("velocity", raw.velocity)?,
         angular_velocity: at.finite("angular_velocity", raw.angular_velocity)?,
+        held: raw.held,
         colour: at.colour(raw.colour)?,
     })
 }

@@ -1,13 +1,13 @@
-//! A scene file as it is written, before anything is checked but its keys and types.
+//! A scene file as it is written, before anything is checked but its keys and types. The tests write scenes with it too.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-pub(super) type Triple = [f32; 3];
+pub type Triple = [f32; 3];
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawScene {
+pub struct RawScene {
     pub name: String,
     pub duration: f32,
     #[serde(default = "sixtieth")]
@@ -32,9 +32,9 @@ fn earth() -> Triple {
     [0.0, -9.81, 0.0]
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawCamera {
+pub struct RawCamera {
     pub eye: Triple,
     pub target: Triple,
     #[serde(default = "forty")]
@@ -45,9 +45,9 @@ fn forty() -> f32 {
     40.0
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawBody {
+pub struct RawBody {
     pub name: String,
     pub rig: PathBuf,
     #[serde(default)]
@@ -58,12 +58,14 @@ pub(super) struct RawBody {
     pub velocity: Triple,
     #[serde(default)]
     pub angular_velocity: Triple,
+    #[serde(default)]
+    pub held: bool,
     pub colour: Option<Triple>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawObstacle {
+pub struct RawObstacle {
     pub name: Option<String>,
     pub shape: RawShape,
     #[serde(default)]
@@ -84,9 +86,9 @@ pub(super) struct RawObstacle {
     pub spin: Option<RawSpin>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawShape {
+pub struct RawShape {
     pub kind: String,
     pub radius: Option<f32>,
     pub half_height: Option<f32>,
@@ -133,9 +135,9 @@ impl RawShape {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawDragger {
+pub struct RawDragger {
     pub body: String,
     pub pulls: String,
     #[serde(default)]
@@ -146,17 +148,17 @@ pub(super) struct RawDragger {
     pub steady: Option<bool>,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawPath {
+pub struct RawPath {
     pub points: Vec<Triple>,
     pub period: f32,
     pub kind: String,
 }
 
-#[derive(Deserialize)]
+#[derive(Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct RawSpin {
+pub struct RawSpin {
     pub axis: Triple,
     pub degrees_per_second: f32,
 }

@@ -58,6 +58,8 @@ pub struct Body {
     pub velocity: Vec3,
     /// Angular velocity in radians a second.
     pub angular_velocity: Vec3,
+    /// True where its rigid bodies stay where they are, whatever pushes them.
+    pub held: bool,
     /// Red, green and blue from 0 to 1.
     pub colour: Option<[f32; 3]>,
 }

@@ -8,7 +8,8 @@ use pliant::coupling::{ObstacleError, RagdollStart};
 use pliant::elastic::{ElasticRig, RigError, load_rig};
 use pliant::math::{Pose, Quat, Vec3};
 use pliant::mesh::MeshError;
-use pliant::world::DeformationWorld;
+use pliant::world::{DeformationWorld, ElasticBodyHandle};
+use rapier3d::dynamics::RigidBodyType;
 use rapier3d::pipeline::PhysicsWorld;
 
 use super::obstacle::ObstacleBody;
@@ -76,9 +77,21 @@ pub(super) fn build(scene: &Scene, seed: u64) -> Result<Built, BuildError> {
             ..RagdollStart::default()
         };
         let handle = deformation.insert(rig, &start, &mut physics);
+        if body.held {
+            hold(&deformation, handle, &mut physics);
+        }
         actors.push(Actor { name: body.name.clone(), handle, colour: body.colour });
     }
     Ok(Built { physics, deformation, actors, obstacles })
+}
+
+/// Fixes the rigid bodies of an elastic body where they are.
+fn hold(deformation: &DeformationWorld, handle: ElasticBodyHandle, physics: &mut PhysicsWorld) {
+    for rigid in deformation.ragdoll(handle).into_iter().flat_map(|ragdoll| &ragdoll.bodies) {
+        if let Some(rigid) = physics.bodies.get_mut(*rigid) {
+            rigid.set_body_type(RigidBodyType::Fixed, true);
+        }
+    }
 }
 
 /// SplitMix64: the same starts for the same seed, everywhere.

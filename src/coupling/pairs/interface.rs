@@ -4,79 +4,81 @@ use std::f32::consts::FRAC_PI_2;
 
 use rapier3d::geometry::{ColliderHandle, SharedShape};
 
-use super::overlap::{Overlap, frame_of};
+use super::overlap::{Overlap, SkinSide, frame_of};
 use crate::coupling::obstacle::{ObstacleError, ObstaclePart, OuterFace, PartId, convex_parts};
 use crate::math::{Mat3, Pose, Quat, Vec3};
 
-/// Where two skins are to touch: a rectangle or a disc across the line between their axes.
+/// Where two skins are to touch: a plane across the line between their axes, and how far each skin reaches along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interface {
-    /// Middle of the rectangle.
-    pub centre: Vec3,
-    /// Its two sides and, as the z axis, the direction towards the first skin.
+    /// Two directions in the plane and, as the z axis, the one towards the first skin.
     pub frame: Mat3,
-    /// Half of its sides in metres.
-    pub half: [f32; 2],
-    /// Where the overlap follows no direction: the radius of a disc instead of the rectangle, in metres.
-    pub round: Option<f32>,
+    /// Height of the plane along the z axis, in metres.
+    pub height: f32,
     /// How far the first skin reaches beyond it, and the second on the other side, in metres.
     pub reach: [f32; 2],
+    /// The shadows of the two skins on the plane.
+    pub shadows: [Shadow; 2],
+    /// True where the shadows are taken for discs, not for rectangles.
+    pub round: bool,
+}
+
+/// A rectangle in the plane, in the frame's coordinates, in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shadow {
+    /// Middle.
+    pub middle: [f32; 2],
+    /// Half of the sides.
+    pub half: [f32; 2],
+}
+
+impl Shadow {
+    fn of(points: impl Iterator<Item = Vec3>, frame: Mat3) -> Self {
+        let turned = frame.transpose();
+        let (mut from, mut to) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for x in points {
+            let x = turned * x;
+            (from, to) = (from.min(x), to.max(x));
+        }
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        Self { middle: [middle.x, middle.y], half: [half.x, half.y] }
+    }
 }
 
 impl Interface {
-    /// The interface of an overlap. `share` is the part of it by which the first skin yields, from 0 to 1: its compliance
-    /// over that of both. `along` is the direction that the rectangle follows; it is a disc where there is none.
+    /// The interface of an overlap between two skins. `share` is the part of it by which the first yields, from 0 to 1: its
+    /// compliance over that of both. `along` is a direction that the skins follow; without one they are taken for round.
     ///
     /// None where nothing overlaps.
-    pub fn of(overlap: &Overlap, normal: Vec3, along: Option<Vec3>, share: f32) -> Option<Self> {
+    pub fn of(
+        overlap: &Overlap,
+        skins: Option<[SkinSide<'_>; 2]>,
+        normal: Vec3,
+        along: Option<Vec3>,
+        share: f32,
+    ) -> Option<Self> {
         if overlap.is_empty() {
             return None;
         }
+        let frame = frame_of(normal, along.unwrap_or(Vec3::ZERO));
         let (low, high) = overlap.heights(normal);
-        let plane = low + (high - low) * share;
-        let interface = Self {
-            centre: normal * plane,
-            frame: frame_of(normal, along.unwrap_or(Vec3::ZERO)),
-            half: [f32::NEG_INFINITY; 2],
-            round: along.is_none().then_some(f32::NEG_INFINITY),
-            reach: [0.0; 2],
+        let height = low + (high - low) * share;
+        let shadows = match skins {
+            Some(skins) => {
+                skins.map(|side| Shadow::of(side.vertices.iter().map(|&v| side.positions[v as usize]), frame))
+            }
+            None => [Shadow::of(overlap.a.iter().chain(&overlap.b).map(|p| p.position), frame); 2],
         };
-        Some(interface.widened(overlap))
-    }
-
-    /// The same plane, wide enough for what overlaps now too.
-    #[must_use]
-    pub fn widened(&self, overlap: &Overlap) -> Self {
-        let frame = self.frame;
-        let plane = self.centre.dot(frame.z_axis);
-        let (mut from, mut to) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-        if self.half[0] >= 0.0 {
-            let (middle, half) = (frame.transpose() * self.centre, Vec3::new(self.half[0], self.half[1], 0.0));
-            (from, to) = (middle - half, middle + half);
-        }
-        let points = || overlap.a.iter().chain(&overlap.b).map(|p| p.position);
-        for x in points() {
-            let local = frame.transpose() * x;
-            (from, to) = (from.min(local), to.max(local));
-        }
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let centre = frame * Vec3::new(middle.x, middle.y, plane);
-        let aside = |x: Vec3| (x - centre - frame.z_axis * (x - centre).dot(frame.z_axis)).length();
-        let kept = self.round.map(|radius| radius + aside(self.centre));
-        let round = kept.map(|kept| points().map(aside).fold(kept.max(0.0), f32::max));
-        let (low, high) = overlap.heights(frame.z_axis);
-        let reach = [self.reach[0].max(plane - low), self.reach[1].max(high - plane)];
-        Self { centre, frame, half: [half.x, half.y], round, reach }
+        Some(Self { frame, height, reach: [height - low, high - height], shadows, round: along.is_none() })
     }
 }
 
-/// The convex part that pushes one of the two skins to its side of the interface: a box with the interface as its face.
-///
-/// `first` tells which of the two skins; the box is as deep as that skin reaches beyond the interface, and `margin`
-/// metres more, and `margin` metres wider on each side than the overlap.
+/// The convex part that pushes one of the two skins to its side of the interface: a box, or a cylinder, behind the plane,
+/// as wide as the other skin. `first` tells which skin is pushed; the part is as deep as that skin reaches beyond the plane,
+/// and `margin` metres more.
 ///
 /// # Errors
-/// Where the box is not finite.
+/// Where the part is not finite or has no volume.
 pub fn interface_part(
     interface: &Interface,
     first: bool,
@@ -85,30 +87,27 @@ pub fn interface_part(
 ) -> Result<ObstaclePart, ObstacleError> {
     let out = if first { interface.frame.z_axis } else { -interface.frame.z_axis };
     let depth = 0.5 * (interface.reach[usize::from(!first)] + margin);
-    let beside = margin * BESIDE;
-    let half = interface.half.map(|half| half + beside);
+    let Shadow { middle, half } = interface.shadows[usize::from(first)];
     let flat = Quat::from_mat3(&interface.frame);
     let (shape, rotation) = match interface.round {
         // Parry's cylinders stand along y.
-        Some(radius) => (SharedShape::cylinder(depth, radius + beside), flat * Quat::from_rotation_x(FRAC_PI_2)),
-        None => (SharedShape::cuboid(half[0], half[1], depth), flat),
+        true => (SharedShape::cylinder(depth, half[0].max(half[1])), flat * Quat::from_rotation_x(FRAC_PI_2)),
+        false => (SharedShape::cuboid(half[0], half[1], depth), flat),
     };
-    let pose = Pose::from_parts(interface.centre - out * depth, rotation);
+    let centre = interface.frame * Vec3::new(middle[0], middle[1], interface.height);
+    let pose = Pose::from_parts(centre - out * depth, rotation);
     let mut parts = convex_parts(&shape)?;
     let local = parts.swap_remove(0);
     let mut part = ObstaclePart::new(id, ColliderHandle::invalid(), &local, pose);
     // Nothing leaves through the sides: the other skin is all around.
     part.face = Some(OuterFace {
         normal: out,
-        offset: out.dot(interface.centre),
+        offset: out.dot(centre),
         area: 4.0 * half[0] * half[1],
-        middle: interface.centre,
+        middle: centre,
         thickness: 2.0 * depth,
         two_sided: false,
         edges: Vec::new(),
     });
     Ok(part)
 }
-
-/// The box is wider than the overlap by this part of its margin.
-const BESIDE: f32 = 0.1;

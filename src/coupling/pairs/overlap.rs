@@ -1,18 +1,39 @@
 //! How far two pieces of skin are in each other along a direction.
 
 use super::height_map::HeightMap;
-use crate::elastic::SegmentSkin;
+use crate::elastic::ElasticBody;
 use crate::math::{Mat3, Vec2, Vec3};
 
 /// A piece of skin: what one segment owns, and where all vertices of its body are.
 #[derive(Clone, Copy)]
 pub struct SkinSide<'a> {
-    /// The segment's vertices and triangles.
-    pub skin: &'a SegmentSkin,
+    /// The vertices.
+    pub vertices: &'a [u32],
+    /// Indices of the triangles.
+    pub members: &'a [u32],
     /// All triangles of the body.
     pub triangles: &'a [[u32; 3]],
     /// Positions of all vertices of the body.
     pub positions: &'a [Vec3],
+}
+
+impl<'a> SkinSide<'a> {
+    /// All that a segment moves.
+    pub fn whole(body: &'a ElasticBody, segment: usize, positions: &'a [Vec3]) -> Self {
+        let skin = &body.skins()[segment];
+        Self { vertices: &skin.vertices, members: &skin.triangles, triangles: &body.rig().mesh.triangles, positions }
+    }
+
+    /// What a segment moves alone: without the skin that it shares with its neighbours at the joints.
+    pub fn inner(body: &'a ElasticBody, segment: usize, positions: &'a [Vec3]) -> Self {
+        let skin = &body.skins()[segment];
+        Self {
+            vertices: &skin.own_vertices,
+            members: &skin.own_triangles,
+            triangles: &body.rig().mesh.triangles,
+            positions,
+        }
+    }
 }
 
 /// A vertex of one skin inside the other.
@@ -80,7 +101,6 @@ pub fn frame_of(normal: Vec3, along: Vec3) -> Mat3 {
 fn inside(own: SkinSide<'_>, other: SkinSide<'_>, frame: Mat3) -> Vec<OverlapPoint> {
     let (low, high) = bounds(&other);
     let near: Vec<(u32, Vec3)> = own
-        .skin
         .vertices
         .iter()
         .map(|&v| (v, own.positions[v as usize]))
@@ -93,7 +113,7 @@ fn inside(own: SkinSide<'_>, other: SkinSide<'_>, frame: Mat3) -> Vec<OverlapPoi
     let (from, to) =
         near.iter().fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(l, h), (_, x)| (l.min(flat(*x)), h.max(flat(*x))));
     let corners = |&t: &u32| other.triangles[t as usize].map(|v| other.positions[v as usize]);
-    let map = HeightMap::new(frame, from, to, other.skin.triangles.iter().map(corners));
+    let map = HeightMap::new(frame, from, to, other.members.iter().map(corners));
     let point = |(vertex, position)| {
         let depth = map.exit(position)?;
         Some(OverlapPoint { vertex, position, depth })
@@ -106,5 +126,5 @@ fn bounds(side: &SkinSide<'_>) -> (Vec3, Vec3) {
         let x = side.positions[v as usize];
         (low.min(x), high.max(x))
     };
-    side.skin.vertices.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), of)
+    side.vertices.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), of)
 }

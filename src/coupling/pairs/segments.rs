@@ -1,10 +1,13 @@
 //! Which segments come close to each other: a tree over the boxes around all of them, nothing quadratic.
 
+use std::collections::BTreeSet;
+
 use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy};
 
+use super::overlap::{Overlap, SkinSide};
 use crate::coupling::contact::moved_axis;
-use crate::elastic::{ElasticBody, ElasticRig};
+use crate::elastic::ElasticBody;
 use crate::math::Vec3;
 
 /// A segment of one of several bodies.
@@ -42,9 +45,9 @@ pub fn segment_bounds(body: &ElasticBody, segment: usize) -> Aabb {
     Aabb::new(low, high)
 }
 
-/// All pairs of segments whose boxes meet, sorted. Segments of one body that a joint ties together are left out: their
-/// skins grow out of each other. So are bodies that do not `collide`.
-pub fn pairs_of(bodies: &[&ElasticBody], collide: impl Fn(usize, usize) -> bool) -> Vec<SegmentPair> {
+/// All pairs of segments whose boxes meet and that `collide`, sorted; of two segments of one body the one with the smaller
+/// index stands first.
+pub fn pairs_of(bodies: &[&ElasticBody], collide: impl Fn(SegmentRef, SegmentRef) -> bool) -> Vec<SegmentPair> {
     let mut segments = Vec::new();
     let mut boxes = Vec::new();
     for (index, body) in bodies.iter().enumerate() {
@@ -65,12 +68,9 @@ pub fn pairs_of(bodies: &[&ElasticBody], collide: impl Fn(usize, usize) -> bool)
             if j <= i || !bounds.intersects_box(&boxes[j]) {
                 continue;
             }
-            let meets = if a.body == b.body {
-                !joined(bodies[a.body].rig(), a.segment, b.segment)
-            } else {
-                collide(a.body, b.body)
-            };
-            if meets && let Some(pair) = SegmentPair::of(bodies, a, b) {
+            if collide(a, b)
+                && let Some(pair) = SegmentPair::of(bodies, a, b)
+            {
                 pairs.push(pair);
             }
         }
@@ -89,9 +89,25 @@ impl IntersectsBox for Aabb {
     }
 }
 
-/// True where a joint ties the two segments.
-fn joined(rig: &ElasticRig, a: usize, b: usize) -> bool {
-    rig.joints.iter().any(|joint| (joint.parent, joint.child) == (a, b) || (joint.parent, joint.child) == (b, a))
+/// The pairs of segments of one body that may touch: no joint ties them, and their skins are apart at rest. The body is
+/// taken as it is, which must be at rest.
+pub fn self_pairs(body: &ElasticBody) -> BTreeSet<(usize, usize)> {
+    let rig = body.rig();
+    let joined = |a: usize, b: usize| {
+        rig.joints.iter().any(|joint| (joint.parent, joint.child) == (a, b) || (joint.parent, joint.child) == (b, a))
+    };
+    let mut pairs = BTreeSet::new();
+    for i in 0..body.skins().len() {
+        for j in i + 1..body.skins().len() {
+            let (a, b) = (SegmentRef { body: 0, segment: i }, SegmentRef { body: 0, segment: j });
+            let Some(pair) = SegmentPair::of(&[body], a, b).filter(|_| !joined(i, j)) else { continue };
+            let [first, second] = [i, j].map(|segment| SkinSide::inner(body, segment, body.positions()));
+            if Overlap::between(first, second, pair.normal, pair.along.unwrap_or(Vec3::ZERO)).is_empty() {
+                pairs.insert((i, j));
+            }
+        }
+    }
+    pairs
 }
 
 impl SegmentPair {

@@ -38,17 +38,16 @@ impl Grip {
 
     /// Changes the velocities of the held vertices for a step of `h` seconds. A target that is not finite holds nothing.
     pub fn pull(&self, body: &mut ProcDefBody, h: f32) {
-        if !self.target.is_finite() || !(h > 0.0 && h.is_finite()) {
+        if !(self.target.is_finite() && h > 0.0 && h.is_finite()) {
             return;
         }
         let (x, v) = (self.mean(body.positions()), self.mean(body.velocities()));
         let turn = std::f32::consts::TAU * self.frequency.max(0.0) * h;
         // The implicit step of a critically damped spring: v' = (v + ω² h (target - x)) / (1 + ω h)².
         let wanted = (v + (self.target - x) * (turn * turn / h)) / ((1.0 + turn) * (1.0 + turn));
-        let most = self.vertices.iter().map(|(_, w)| *w).fold(0.0, f32::max);
         // The place moves by the weighted mean of the vertices' changes, each by its weight.
         let spread: f32 = self.vertices.iter().map(|(_, w)| w * w).sum();
-        if !(most > 0.0 && spread > 0.0) {
+        if spread <= 0.0 {
             return;
         }
         let change = (wanted - v) / spread;

@@ -31,9 +31,9 @@ pub fn act_of_water(model: &ProcDefModel, regions: &[WaterRegion], gravity: Vec3
     let Some(water) = &model.water else { return };
     let region = |x: Vec3| regions.iter().find(|region| region.contains(x));
     let masses = model.rig.masses();
-    for v in 0..masses.len() {
+    for (v, (volume, mass)) in model.volumes.iter().zip(masses).enumerate() {
         if region(body.positions()[v]).is_some() {
-            body.velocities_mut()[v] -= gravity * (h * water.density * model.volumes[v] / masses[v]);
+            body.velocities_mut()[v] -= gravity * (h * water.density * volume / mass);
         }
     }
     for triangle in &model.boundary {

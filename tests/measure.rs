@@ -1,0 +1,122 @@
+//! The measurements tell what they claim to.
+
+mod common;
+
+use pliant::coupling::{
+    CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId, SMOOTH, SkinsMet,
+    cancel, convex_parts, measure, proximities,
+};
+use pliant::elastic::ElasticBody;
+use pliant::math::{Pose, Quat, Vec3};
+use pliant::spring::SpringCoefficients;
+use rapier3d::geometry::{ColliderHandle, SharedShape};
+
+const RADIUS: f32 = 0.5;
+
+fn ball(pose: Pose) -> ElasticBody {
+    let mut body = ElasticBody::new(common::ball_rig(RADIUS, 1.2, SpringCoefficients::new(3.0, 0.2)));
+    place(&mut body, pose);
+    body
+}
+
+fn place(body: &mut ElasticBody, pose: Pose) {
+    body.place(&[pose]);
+    body.build_palette();
+    body.deform_springs();
+}
+
+fn part(shape: &SharedShape, pose: Pose) -> Vec<ObstaclePart> {
+    let local = &convex_parts(shape).unwrap()[0];
+    let id = PartId { collider: (0, 0), part: 0 };
+    vec![ObstaclePart::new(id, ColliderHandle::from_raw_parts(0, 0), local, pose)]
+}
+
+/// A wide box whose top is at this height.
+fn floor(top: f32) -> Vec<ObstaclePart> {
+    part(&SharedShape::cuboid(5.0, 1.0, 5.0), Pose::from_translation(Vec3::Y * (top - 1.0)))
+}
+
+fn cancelled(body: &mut ElasticBody, parts: &[ObstaclePart]) -> CancelReport {
+    let near = proximities(body, parts, 0.1, &mut ContactMemories::new());
+    cancel(body, parts, &near, RADIUS, &CancelSettings::default())
+}
+
+#[test]
+fn the_depth_of_an_untouched_ball_in_a_floor_is_how_far_it_reaches_in_and_it_is_not_cancelled() {
+    let body = ball(Pose::IDENTITY);
+    let figures = measure(&body, &floor(-0.4), RADIUS, &CancelReport::default());
+    // The vertices of the sphere lie up to 0.001 of the radius above its lowest point.
+    assert!((figures.max_depth_after - 0.2).abs() < 2e-3, "{figures:?}");
+    assert!(figures.uncancelled && figures.vertices_inside > 100, "{figures:?}");
+    assert!(figures.max_piercing >= figures.max_depth_after);
+}
+
+#[test]
+fn a_tip_between_the_vertices_is_seen_though_no_vertex_is_inside() {
+    let body = ball(Pose::IDENTITY);
+    let rig = body.rig().clone();
+    let t = rig.mesh.triangles[1234].map(|v| rig.mesh.positions[v as usize]);
+    let middle = (t[0] + t[1] + t[2]) / 3.0;
+    let out = (t[1] - t[0]).cross(t[2] - t[0]).normalize();
+    // A slender cone, its tip 0.01 m behind the triangle.
+    let tip = Pose::from_parts(middle + out * (0.2 - 0.01), Quat::from_rotation_arc(Vec3::Y, -out));
+    let figures = measure(&body, &part(&SharedShape::cone(0.2, 0.005), tip), RADIUS, &CancelReport::default());
+    assert_eq!(figures.max_depth_after, 0.0);
+    // The deepest point of the triangle in the cone is at most half of the cone's width there.
+    assert!(figures.max_piercing > 0.0, "{figures:?}");
+    let wide = measure(&body, &part(&SharedShape::cuboid(0.005, 0.2, 0.005), tip), RADIUS, &CancelReport::default());
+    // Half of the bar's width of 0.01 m, in radii.
+    assert!((wide.max_piercing - 0.01).abs() < 1e-3 && wide.uncancelled && wide.max_piercing > PIERCED, "{wide:?}");
+}
+
+#[test]
+fn a_skin_that_hangs_above_what_it_had_penetrated_has_a_gap_of_that_height() {
+    let mut body = ball(Pose::IDENTITY);
+    let report = cancelled(&mut body, &floor(-0.4));
+    let touching = measure(&body, &floor(-0.4), RADIUS, &report);
+    assert!(touching.max_gap < 5e-3 && !touching.uncancelled, "{touching:?}");
+    let lowered = measure(&body, &floor(-0.42), RADIUS, &report);
+    assert!((lowered.max_gap - touching.max_gap - 0.02 / RADIUS).abs() < 1e-3, "{lowered:?}");
+}
+
+#[test]
+fn a_body_that_rides_on_its_obstacle_is_perfectly_coherent() {
+    let mut body = ball(Pose::IDENTITY);
+    let mut memory = CoherenceMemory::default();
+    let settings = CancelSettings::default();
+    for step in 0..4 {
+        let ride = Pose::from_parts(Vec3::X * (0.3 * step as f32), Quat::from_rotation_y(0.2 * step as f32));
+        place(&mut body, ride);
+        let parts = part(&SharedShape::cuboid(5.0, 1.0, 5.0), ride * Pose::from_translation(Vec3::Y * -1.4));
+        memory.begin(&body);
+        let report = cancelled(&mut body, &parts);
+        assert!(report.passes > 0);
+        let coherence = memory.end(&body, &parts, SkinsMet::default(), &report, RADIUS, &settings);
+        // Rounding of poses decides which vertices are just deeper than the tolerance: less than that may change.
+        let small = coherence.change < settings.depth_tolerance && coherence.motion < 1e-5;
+        assert!(small && coherence.ratio < SMOOTH, "{coherence:?}");
+    }
+}
+
+#[test]
+fn a_cancellation_that_is_left_out_for_a_step_is_seen_as_a_pop() {
+    let mut body = ball(Pose::IDENTITY);
+    let mut memory = CoherenceMemory::default();
+    let settings = CancelSettings::default();
+    let parts = floor(-0.4);
+    memory.begin(&body);
+    let report = cancelled(&mut body, &parts);
+    assert_eq!(
+        memory.end(&body, &parts, SkinsMet::default(), &report, RADIUS, &settings).ratio,
+        0.0,
+        "there is no step before"
+    );
+    place(&mut body, Pose::IDENTITY);
+    memory.begin(&body);
+    let pop = memory.end(&body, &parts, SkinsMet::default(), &CancelReport::default(), RADIUS, &settings);
+    assert!(pop.change > 0.19 && pop.motion == 0.0 && pop.ratio > 10.0 * SMOOTH, "{pop:?}");
+    // Where nobody knows what was before, nothing is said.
+    memory.forget();
+    memory.begin(&body);
+    assert_eq!(memory.end(&body, &parts, SkinsMet::default(), &CancelReport::default(), RADIUS, &settings).ratio, 0.0);
+}
