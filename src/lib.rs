@@ -6,15 +6,17 @@
 //! cancelled on the visible surface.
 //!
 //! Modules, each importing only from those to its right:
-//! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`] → [`spring`], [`field`], [`mesh`] → [`math`].
+//! `ui`, `gpu` → [`world`] → [`coupling`] → [`elastic`], [`procdef`] → [`spring`], [`field`], [`mesh`], [`files`] → [`math`].
 
 pub mod coupling;
 pub mod elastic;
 pub mod field;
+pub mod files;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod math;
 pub mod mesh;
+pub mod procdef;
 pub mod spring;
 #[cfg(feature = "ui")]
 pub mod ui;

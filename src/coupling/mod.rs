@@ -14,6 +14,7 @@ mod pairs;
 mod penetrations;
 mod piercing;
 mod probes;
+pub mod procdef;
 mod skin_point;
 mod strength;
 

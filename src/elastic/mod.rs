@@ -17,10 +17,10 @@ mod rig_file;
 mod rig_raw;
 mod skin_order;
 mod tangent_normals;
-mod toml_text;
 mod weight_regions;
 mod weights;
 
+pub use crate::files::{MAX_TOML_BYTES, TomlError, TomlKey, TomlText, did_you_mean};
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
 pub use body_normals::Normals;
 pub use drag_stage::{DragField, DragStage, NO_SEGMENT};
@@ -35,5 +35,4 @@ pub use rig_builder::{DEFAULT_LOCAL_THRESHOLD, DEFAULT_SOFTNESS, ElasticRigBuild
 pub use rig_fault::{RigFault, RigFaultKind, RigPlace, RigTable};
 pub use rig_file::{RigError, load_rig};
 pub use tangent_normals::{TANGENT_STEP, tangent_epsilon};
-pub use toml_text::{MAX_TOML_BYTES, TomlError, TomlKey, TomlText, did_you_mean};
 pub use weights::{MAX_SEGMENTS, WeightOptions, WeightsError, compute_weights};

@@ -15,6 +15,7 @@ pub mod remesh;
 pub mod rock;
 pub mod shapes;
 pub mod smooth;
+pub mod soft;
 pub mod surface;
 pub mod surgery;
 pub mod toys;

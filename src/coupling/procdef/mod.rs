@@ -1,0 +1,15 @@
+//! Between rapier and the bodies that move by themselves: their particles, what they touch, water, ground, what holds them.
+
+mod attachment;
+mod contacts;
+mod grip;
+mod ground;
+mod particles;
+mod water;
+
+pub use attachment::{attach_to, spawn_attachment};
+pub use contacts::{FeltContacts, GroundContact, felt_impulses, ground_contacts};
+pub use grip::Grip;
+pub use ground::GroundDirections;
+pub use particles::{ParticleFault, ProcDefSets, ProcDefStart, read_particles, spawn_soft_body, write_velocities};
+pub use water::{WaterRegion, act_of_water};

@@ -1,0 +1,9 @@
+//! Bodies that move by themselves in rapier's world: what they do, and how they meet others.
+
+mod behaviour;
+mod bowel;
+mod contacts;
+mod crowds;
+mod heart;
+mod scene;
+mod world;
