@@ -110,7 +110,7 @@ pub fn cancel(
         let mut all = contacts.clone();
         add_guards(body, parts, guards, &mut all);
         let least = vec![0.0; all.len()];
-        let (pass, strengths) = solve_pass(body, parts, near, &all, &least, reach, size, settings);
+        let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, reach, size, settings);
         if report.passes == 0 {
             report.contacts = contacts;
         }
@@ -165,7 +165,7 @@ fn close_gaps(
         let guards = find_guards(body, parts, near, &all, (2.0 * widest).min(GUARD_HEIGHT * size));
         add_guards(body, parts, guards, &mut all);
         let least: Vec<f32> = all.iter().map(|contact| -contact.pushed).collect();
-        let (pass, strengths) = solve_pass(body, parts, near, &all, &least, softness, size, settings);
+        let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, softness, size, settings);
         let (before, passes) = (body.positions().to_vec(), body.palette().passes.len());
         body.deform_collision(pass);
         let mut taken = 1;
@@ -175,7 +175,7 @@ fn close_gaps(
             let guards = find_guards(body, parts, near, &inside, widest);
             add_guards(body, parts, guards, &mut inside);
             let least = vec![0.0; inside.len()];
-            let (pass, _) = solve_pass(body, parts, near, &inside, &least, softness, size, settings);
+            let (pass, _) = solve_pass(body, (parts, near), &inside, &least, softness, size, settings);
             body.deform_collision(pass);
             taken = 2;
             inside = left_over(body, parts, near, tolerance);

@@ -18,8 +18,7 @@ use crate::math::{Pose, Vec3};
 /// `least` are the least strengths: 0, or minus what the contact's own fields have pushed before, which may be taken back.
 pub(super) fn solve_pass(
     body: &ElasticBody,
-    parts: &[ObstaclePart],
-    near: &[Proximity],
+    (parts, near): (&[ObstaclePart], &[Proximity]),
     contacts: &[Contact],
     least: &[f32],
     softness: f32,

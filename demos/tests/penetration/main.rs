@@ -75,7 +75,7 @@ fn random_starts_of_the_tower_hold_too() {
         let worst = run(find_scene("tower").expect("a scene"), seed, frames);
         println!("tower, seed {seed}: {worst}");
         worst
-            .faults(&Limits::of("tower"))
+            .faults(&Limits::of("tower starts"))
             .into_iter()
             .map(move |fault| format!("seed {seed}: {fault} (pliant run tower --seed {seed})"))
     };
