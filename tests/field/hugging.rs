@@ -18,6 +18,8 @@ fn nothing_that_starts_outside_the_shifted_part_ends_inside_the_part() {
     for kind in 0..8 * SHAPES {
         let mut field = hugging_field(&mut rng, kind);
         field.extent = 4.0;
+        // Beside a patch the field does not carry anything out of the part.
+        field.patch = Patch::EVERYWHERE;
         let (mut pushed, mut swept) = (0, 0);
         for integrator in [Integrator::Euler, Integrator::Midpoint, Integrator::RungeKutta4] {
             let steps = certified_steps(field.lipschitz(), integrator.default_steps());
@@ -41,13 +43,14 @@ fn nothing_that_starts_outside_the_shifted_part_ends_inside_the_part() {
 }
 
 #[test]
-fn the_part_itself_moves_rigidly() {
+fn the_part_itself_moves_rigidly_within_the_patch() {
     let mut rng = Rng::with_seed(11);
     for kind in 0..3 * SHAPES {
         let field = hugging_field(&mut rng, kind);
         for _ in 0..300 {
             let x = field.gauge + in_cube(&mut rng, 1.2);
-            if field.part.distance(x + field.d).0 == 0.0 {
+            let beside = (x + field.d).distance(field.patch.centre) > field.patch.radius;
+            if field.part.distance(x + field.d).0 == 0.0 && !beside {
                 let end = path_line(x, Integrator::Midpoint, 6, |x, t| field.velocity(x, t));
                 assert!(end.distance(x + field.d) < 3e-6, "{end} {}", x + field.d);
             }
