@@ -113,7 +113,7 @@ impl HuggingField {
 }
 
 impl Lipschitz for HuggingField {
-    /// [`collision_bound`] with the slope and the curvature of a product of weights:
+    /// The bound of `collision_bound` with the slope and the curvature of a product of weights:
     /// `|∇φ| ≤ S (1/W + 1/V)`, `|∇∇φ| ≤ C (1/W² + 1/V²) + 4 S² / (W V)` for the widths `W` and `V`. A spread `B` with the
     /// norm `1 + s` multiplies all that `b` takes part in.
     fn lipschitz(&self) -> f32 {

@@ -58,7 +58,7 @@ pub struct Overlap {
 
 impl Overlap {
     /// Compares two skins along the unit direction `normal`, from the second to the first, in the frame that it makes
-    /// with `along` (see [`frame_of`]).
+    /// with `along` (see `frame_of`).
     pub fn between(a: SkinSide<'_>, b: SkinSide<'_>, normal: Vec3, along: Vec3) -> Self {
         let frame = frame_of(normal, along);
         let down = Mat3::from_cols(frame.x_axis, -frame.y_axis, -frame.z_axis);
