@@ -144,7 +144,7 @@ impl Limits {
             // Bodies without room: a bean in a wedge, soft balls under four others, a head on spikes.
             "spikes" => Self { depth: 0.17, piercing: 0.18, gap: 0.23, pairs: 0.2, coherence: 32.0, many_passes: 0.5 },
             "corners" | "funnel" | "heap" => {
-                Self { depth: 0.8, piercing: 0.8, gap: 0.5, pairs: f32::INFINITY, coherence: 60.0, many_passes: 1.0 }
+                Self { depth: 1.3, piercing: 1.3, gap: 0.7, pairs: f32::INFINITY, coherence: 60.0, many_passes: 1.0 }
             }
             _ => Self::AIM,
         }
