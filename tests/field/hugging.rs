@@ -13,7 +13,7 @@ use crate::volume::volume;
 
 #[test]
 fn nothing_that_starts_outside_the_shifted_part_ends_inside_the_part() {
-    let mut rng = Rng::with_seed(10);
+    let mut rng = Rng::with_seed(12);
     let mut swept_by_all = 0;
     for kind in 0..8 * SHAPES {
         let mut field = hugging_field(&mut rng, kind);
