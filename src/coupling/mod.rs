@@ -33,7 +33,7 @@ pub use pairs::{
     segment_bounds, self_pairs,
 };
 pub use penetrations::{Contact, Penetration, find_contacts, find_guards, find_piercings};
-pub use piercing::{deepest_on_triangle, deepest_piercing, pierced, signed_depth};
+pub use piercing::{deepest_on_triangle, pierced};
 pub use skin_point::SkinPoint;
 mod foundation;
 mod measure;

@@ -3,12 +3,7 @@
 //! The signed distance of a convex part is a convex function, so on a triangle it has one lowest value: the deepest
 //! point of the triangle in the part.
 
-use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
-use rayon::prelude::*;
-
-use super::obstacle::ObstaclePart;
 use super::skin_point::SkinPoint;
-use crate::elastic::ElasticBody;
 use crate::field::PlacedPart;
 use crate::math::Vec3;
 
@@ -102,24 +97,4 @@ pub fn pierced(
     }
     let (weights, height) = deepest_on_triangle(part, corners);
     (height < below).then_some((SkinPoint { vertices, weights }, -height))
-}
-
-/// How deep `x` is in a part, negative outside.
-pub fn signed_depth(part: &ObstaclePart, x: Vec3) -> f32 {
-    -part.placed.signed_distance(x).0
-}
-
-/// The deepest point of any triangle of the skin in a part, in metres; 0 where the skin is outside.
-pub fn deepest_piercing(body: &ElasticBody, part: &ObstaclePart) -> f32 {
-    let x = body.positions();
-    let depth = |t: &[u32; 3]| {
-        let corners = t.map(|v| x[v as usize]);
-        let low = corners[0].min(corners[1]).min(corners[2]);
-        let high = corners[0].max(corners[1]).max(corners[2]);
-        if !part.aabb.intersects(&Aabb::new(low, high)) {
-            return 0.0;
-        }
-        -deepest_on_triangle(&part.placed, corners).1
-    };
-    body.rig().mesh.triangles.par_iter().with_min_len(512).map(depth).reduce(|| 0.0, f32::max)
 }

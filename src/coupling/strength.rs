@@ -136,7 +136,7 @@ fn place_fields(
         let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
-        let beside = width + lat() * contact.radius;
+        let beside = width + contact.radius;
         let patch = Patch { centre: contact.centre, radius: contact.radius, width: beside };
         SegmentField {
             shares: shares(body, parts, contact, near),
@@ -272,7 +272,4 @@ fn influence(
         tame(&mut matrix[i * n..(i + 1) * n], i);
     }
     matrix
-}
-fn lat() -> f32 {
-    std::env::var("LAT").ok().and_then(|s| s.parse().ok()).unwrap_or(1.0)
 }
