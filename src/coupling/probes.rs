@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, Penetration};
-use super::skin_point::SkinPoint;
+use super::skin_point::{SkinPoint, flow_all};
 use crate::elastic::{CollisionPass, ElasticBody};
+use crate::math::Vec3;
 
 /// The few points on which the strengths are solved: for each contact the deepest, and some of the others.
 pub(super) struct Probes(Vec<Vec<Penetration>>);
@@ -37,13 +38,12 @@ impl Probes {
         contacts: &[Contact],
         parts: &[ObstaclePart],
     ) -> Vec<Outcome> {
-        let judge = |(contact, probes): (&Contact, &Vec<Penetration>)| {
-            let outcomes = probes.iter().map(|probe| outcome(body, pass, contact, parts, probe));
-            outcomes.fold(Outcome { gap: f32::INFINITY, point: SkinPoint::vertex(0) }, |a, b| {
-                if b.gap < a.gap { b } else { a }
-            })
+        let lists: Vec<&[Penetration]> = self.0.iter().map(Vec::as_slice).collect();
+        let worst = |outcomes: Vec<Outcome>| {
+            let none = Outcome { gap: f32::INFINITY, point: SkinPoint::vertex(0) };
+            outcomes.into_iter().fold(none, |a, b| if b.gap < a.gap { b } else { a })
         };
-        contacts.par_iter().zip(&self.0).map(judge).collect()
+        ends(body, pass, contacts, &lists, parts).into_iter().map(worst).collect()
     }
 
     /// Looks at all points of the contacts under `pass` and adds those that end deeper than their contact's `aim` (a gap) by
@@ -57,21 +57,17 @@ impl Probes {
         aim: &[f32],
         tolerance: f32,
     ) -> bool {
-        let missed = |contact: &Contact, aim: f32| {
-            let outcomes = contact.points.par_iter().with_min_len(32);
-            let mut inside: Vec<(Outcome, Penetration)> = outcomes
-                .map(|p| (outcome(body, pass, contact, parts, p), *p))
-                .filter(|(outcome, _)| outcome.gap < aim - tolerance)
-                .collect();
+        let lists: Vec<&[Penetration]> = contacts.iter().map(|contact| contact.points.as_slice()).collect();
+        let all = ends(body, pass, contacts, &lists, parts);
+        let mut any = false;
+        for (((contact, outcomes), probes), &aim) in contacts.iter().zip(all).zip(&mut self.0).zip(aim) {
+            let ends = outcomes.into_iter().zip(&contact.points);
+            let mut inside: Vec<_> = ends.filter(|(outcome, _)| outcome.gap < aim - tolerance).collect();
             inside.sort_by(|(a, _), (b, _)| a.gap.total_cmp(&b.gap).then(a.point.vertices.cmp(&b.point.vertices)));
             inside.truncate(PROBES_SPREAD);
-            inside
-        };
-        let mut any = false;
-        for ((contact, probes), &aim) in contacts.iter().zip(&mut self.0).zip(aim) {
-            for (_, missed) in missed(contact, aim) {
-                if !probes.contains(&missed) {
-                    probes.push(missed);
+            for (_, missed) in inside {
+                if !probes.contains(missed) {
+                    probes.push(*missed);
                     any = true;
                 }
             }
@@ -80,16 +76,32 @@ impl Probes {
     }
 }
 
-/// Where one vertex of a contact ends under `pass`.
-fn outcome(
+/// Where the points of each contact's list end under `pass`.
+fn ends(
     body: &ElasticBody,
     pass: &CollisionPass,
-    contact: &Contact,
+    contacts: &[Contact],
+    lists: &[&[Penetration]],
     parts: &[ObstaclePart],
-    probe: &Penetration,
-) -> Outcome {
+) -> Vec<Vec<Outcome>> {
+    let points: Vec<SkinPoint> = lists.iter().flat_map(|list| list.iter().map(|p| p.point)).collect();
+    let carried = flow_all(body, pass, &points);
+    let mut rest = carried.as_slice();
+    let own = lists.iter().map(|list| {
+        let (own, others) = rest.split_at(list.len());
+        rest = others;
+        own
+    });
+    let own: Vec<&[Vec3]> = own.collect();
+    let judge = |((contact, list), own): ((&Contact, &&[Penetration]), &&[Vec3])| {
+        list.iter().zip(*own).map(|(probe, &x)| outcome(contact, parts, probe, x)).collect()
+    };
+    contacts.par_iter().zip(lists).zip(&own).map(judge).collect()
+}
+
+/// How far from its part a point of a contact is that ended at `x`.
+fn outcome(contact: &Contact, parts: &[ObstaclePart], probe: &Penetration, x: Vec3) -> Outcome {
     let Penetration { point, part, .. } = *probe;
-    let x = point.flow(body, pass);
     let gap = match parts[part].exit(x, contact.near.normal, 2.0 * (contact.depth() + contact.guards)) {
         Some(depth) => -depth,
         None => parts[part].placed.distance(x).0,

@@ -1,6 +1,9 @@
 //! A point of the skin: a vertex, or a point between the three vertices of a triangle.
 
+use rayon::prelude::*;
+
 use crate::elastic::{CollisionPass, ElasticBody, ElasticRig};
+use crate::field::LANES;
 use crate::math::Vec3;
 
 /// A point of the skin as a weighted mean of vertices. Weights are not negative and sum to 1.
@@ -38,10 +41,23 @@ impl SkinPoint {
         self.corners().map(|(v, w)| rig.weights[v].share_of(shares) * w).sum()
     }
 
-    /// Where a pass carries the point.
-    pub fn flow(&self, body: &ElasticBody, pass: &CollisionPass) -> Vec3 {
-        let integrator = body.settings.integrator;
-        let moved = |(v, w): (usize, f32)| pass.flow(body.positions()[v], &body.rig().weights[v], integrator) * w;
-        self.corners().map(moved).sum()
-    }
 }
+
+/// Where a pass carries points of the skin: their corners are carried eight at a time.
+pub(super) fn flow_all(body: &ElasticBody, pass: &CollisionPass, points: &[SkinPoint]) -> Vec<Vec3> {
+    let (positions, weights, integrator) = (body.positions(), &body.rig().weights, body.settings.integrator);
+    let corners: Vec<usize> = points.iter().flat_map(|point| point.corners().map(|(v, _)| v)).collect();
+    let carry = |batch: &[usize]| {
+        let at = |lane: usize| batch[lane.min(batch.len() - 1)];
+        let x = std::array::from_fn(|lane| positions[at(lane)]);
+        let skins = std::array::from_fn(|lane| &weights[at(lane)]);
+        pass.flow_wide(x, skins, integrator)
+    };
+    let carried: Vec<[Vec3; LANES]> = corners.par_chunks(LANES).with_min_len(BATCHES).map(carry).collect();
+    let mut carried = carried.into_iter().flatten();
+    let mut next = |weight: f32| carried.next().unwrap_or_default() * weight;
+    points.iter().map(|point| point.corners().map(|(_, weight)| next(weight)).sum()).collect()
+}
+
+/// Fewest batches that are worth another thread.
+const BATCHES: usize = 8;

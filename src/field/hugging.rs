@@ -113,22 +113,26 @@ impl HuggingField {
 }
 
 impl Lipschitz for HuggingField {
-    /// The bound of `collision_bound` with the slope and the curvature of a product of weights:
-    /// `|∇φ| ≤ S (1/W + 1/V)`, `|∇∇φ| ≤ C (1/W² + 1/V²) + 4 S² / (W V)` for the widths `W` and `V`. A spread `B` with the
-    /// norm `1 + s` multiplies all that `b` takes part in.
+    /// [`collision_bound`] for the product of two weights, that of the part with the width `W` and that of the patch with `V`:
+    /// `|∇(2φψ)| ≤ S √(1/W² + 1/V²)` and `|∇∇(2φψ)| ≤ C (1/W² + 1/V²) + 0.14 / (W V)`, since both are never steep at once. A
+    /// spread `B` with the norm `1 + s` multiplies all that `b` takes part in.
     fn lipschitz(&self) -> f32 {
-        let (across, along) =
-            (1.0 / self.width, if self.patch.radius.is_finite() { 1.0 / self.patch.width } else { 0.0 });
-        let slope = CollisionKernel::MAX_SLOPE * (across + along);
-        let curvature = CollisionKernel::MAX_CURVATURE * (across * across + along * along)
-            + 4.0 * CollisionKernel::MAX_SLOPE * CollisionKernel::MAX_SLOPE * across * along;
-        let patch = self.patch.radius + self.patch.width + self.patch.centre.distance(self.gauge) + self.d.length();
-        let spread = 1.0 + self.spread.share;
-        self.d.length() * (2.0 * slope * (1.0 + spread) + 2.0 * spread * curvature * self.extent.min(patch))
+        let along = if self.patch.radius.is_finite() { 1.0 / self.patch.width } else { 0.0 };
+        let across = 1.0 / self.width;
+        let squares = across * across + along * along;
+        let slope = CollisionKernel::MAX_SLOPE * squares.sqrt();
+        let curvature = CollisionKernel::MAX_CURVATURE * squares + CollisionKernel::MIXED_CURVATURE * across * along;
+        let d = self.d.length();
+        let aside = (self.patch.centre - self.gauge).reject_from_normalized(self.d.normalize_or(Vec3::X)).length();
+        let extent = self.extent.min(self.patch.radius + self.patch.width + aside);
+        collision_bound(d, slope, curvature, 1.0 + self.spread.share, extent)
     }
 }
 
-/// `|∇u| ≤ |d| (4 max|∇φ| + 2 B max|∇∇φ|)` for `|b| ≤ B`, from the product rule on (F).
-pub(super) fn collision_bound(d: f32, width: f32, extent: f32) -> f32 {
-    d / width * (4.0 * CollisionKernel::MAX_SLOPE + 2.0 * CollisionKernel::MAX_CURVATURE * extent / width)
+/// `|∇u| ≤ |d| ((2 + |B|) max|∇φ| + |B| b max|∇∇φ|)` where `b` bounds the distance from the gauge point across `d`.
+///
+/// With the Hessian `H` of `φ`, the derivative of (F), `u = 2 φ d + ∇φ × (d × B b)`, along `v` is
+/// `2 (∇φ · v) d + H v × (d × B b) + ∇φ × (d × B v)`.
+pub(super) fn collision_bound(d: f32, slope: f32, curvature: f32, spread: f32, extent: f32) -> f32 {
+    d * ((2.0 + spread) * slope + spread * extent * curvature)
 }

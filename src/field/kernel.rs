@@ -30,6 +30,9 @@ impl CollisionKernel {
     pub const MAX_SLOPE: f32 = 1.0321;
     /// Largest of `|d²φ/dr²| · W²` and `|dφ/dr| / r · W²`: it bounds the Hessian of `φ` around any convex part.
     pub const MAX_CURVATURE: f32 = 3.4737;
+    /// With `C` above, the Hessian of the product `2 φ(r₁/W) φ(r₂/V)` of two such weights is at most
+    /// `C (1/W² + 1/V²) + MIXED_CURVATURE / (W V)`: scanned over both arguments and all ratios of the widths, the worst is 0.131.
+    pub const MIXED_CURVATURE: f32 = 0.14;
 
     /// `(φ, dφ/dr)` at the distance `r` from the region of constant velocity, for a fade-out width `W > 0`.
     #[inline]

@@ -39,6 +39,8 @@ impl SphereField {
 impl Lipschitz for SphereField {
     /// The bound of [`super::HuggingField`] with the gauge point at the centre, so that `|b| ≤ r_o`.
     fn lipschitz(&self) -> f32 {
-        super::hugging::collision_bound(self.d.length(), self.outer - self.inner, self.outer)
+        let width = self.outer - self.inner;
+        let (slope, curvature) = (CollisionKernel::MAX_SLOPE / width, CollisionKernel::MAX_CURVATURE / (width * width));
+        super::hugging::collision_bound(self.d.length(), slope, curvature, 1.0, self.outer)
     }
 }

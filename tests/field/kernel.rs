@@ -36,6 +36,27 @@ fn the_collision_constants_are_the_largest_values_rounded_up() {
 }
 
 #[test]
+fn the_product_of_two_weights_is_bounded_as_the_certificate_takes_it() {
+    let [slope, curvature, mixed] =
+        [CollisionKernel::MAX_SLOPE, CollisionKernel::MAX_CURVATURE, CollisionKernel::MIXED_CURVATURE].map(f64::from);
+    for ratio in [0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 1.0] {
+        let (w, v) = (1.0, f64::from(ratio as f32));
+        for i in 1..400 {
+            for j in 1..400 {
+                let (y, z) = (f64::from(i) / 400.0, f64::from(j) / 400.0);
+                let ([a, da, dda], [b, db, ddb]) = (collision(y), collision(z));
+                let (da, db) = (da.abs(), db.abs());
+                let (bent, other) = (dda.abs().max(da / y), ddb.abs().max(db / z));
+                let first = 2.0 * (b * da * w + a * db * v);
+                let second = 2.0 * (b * bent * w * w + a * other * v * v + 2.0 * da * db * w * v);
+                assert!(first <= slope * w.hypot(v), "{first} at {y} {z} for {ratio}");
+                assert!(second <= curvature * (w * w + v * v) + mixed * w * v, "{second} at {y} {z} for {ratio}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_spring_weight_and_its_slope_are_the_formulas() {
     for i in 0..=1000 {
         let s = f64::from(i) / 1000.0 * 9.0;
