@@ -1,14 +1,12 @@
-//! Penetration cancellation: passes of hugging fields that push the skin out until it touches (section 4).
-//!
-//! One pass: gather the contacts of the deformed skin, choose their gauge points together, solve for their strengths so
-//! that each ends touching, then carry the whole skin along. Passes are concatenated until nothing is left.
+//! Penetration cancellation: the skin is pushed out until it touches (section 4), in the first of several ways that leaves
+//! nothing over.
 
+use super::attempt::attempt;
 use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, add_guards, add_piercings, find_contacts, find_guards, find_piercings};
-use super::strength::solve_pass;
-use crate::elastic::ElasticBody;
-use crate::math::Vec3;
+use super::penetrations::{Contact, find_contacts};
+use super::strength::Way;
+use crate::elastic::{CollisionState, ElasticBody};
 
 /// Tolerances and limits of the cancellation; lengths as fractions of the body's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +25,9 @@ pub struct CancelSettings {
     pub max_steps: u32,
     /// Where the fields are placed.
     pub placement: Placement,
+    /// Which of the ways is tried first: 0, or the one that the last report on this body names, so that a body does not change
+    /// its way from step to step.
+    pub first_way: usize,
 }
 
 /// Where collision fields are placed.
@@ -50,6 +51,7 @@ impl Default for CancelSettings {
             max_rounds: 10,
             max_steps: 64,
             placement: Placement::Hugging,
+            first_way: 0,
         }
     }
 }
@@ -63,12 +65,17 @@ pub struct CancelReport {
     pub passes: u32,
     /// Depth in metres that no pass could cancel, by the shortest way out; 0 where nothing deeper than the tolerance is left.
     pub left: f32,
+    /// Widest gap in metres that is left between a contact's parts and the skin in that place, as the vertices tell it.
+    pub gap: f32,
+    /// Which way was taken.
+    pub way: usize,
 }
 
 /// Cancels the penetration of `body` into `parts`: adds passes to its palette and carries its skin along.
 ///
-/// Each pass handles what the last left over. A body that is pinned, without room for its volume, may get worse by further
-/// passes: the best state is kept, and what is left is reported. `size` is the body's size, the unit of the tolerances.
+/// A body that is pinned, without room for its volume, may get worse by further passes: the best state is kept, and what
+/// is left is reported. Where the usual way leaves something over, others are tried from the start, and the best of all
+/// counts. `size` is the body's size, the unit of the tolerances.
 pub fn cancel(
     body: &mut ElasticBody,
     parts: &[ObstaclePart],
@@ -76,62 +83,38 @@ pub fn cancel(
     size: f32,
     settings: &CancelSettings,
 ) -> CancelReport {
-    let mut report = CancelReport::default();
     if settings.placement == Placement::Literal {
         return literal(body, parts, near, size, settings);
     }
-    let tolerance = settings.depth_tolerance * size;
-    let mut best = Best { worst: f32::INFINITY, positions: Vec::new(), passes: 0 };
-    let before = body.palette().passes.len();
-    loop {
-        let mut contacts = find_contacts(body, parts, near, tolerance);
-        let small = contacts.iter().all(|contact| contact.depth() < SMALL * size);
-        if small {
-            add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
+    let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
+    let start = body.collision_state();
+    let mut best: Option<(f32, CancelReport, CollisionState)> = None;
+    let others = (0..WAYS.len()).filter(|&way| way != settings.first_way);
+    for way in std::iter::once(settings.first_way.min(WAYS.len() - 1)).chain(others) {
+        let (softer, stride) = WAYS[way];
+        let mut report = attempt(body, parts, near, Way { softness: softness * softer, stride }, size, settings);
+        report.way = if report.passes > 0 { way } else { 0 };
+        let open = (report.left / (settings.depth_tolerance * size)).max(report.gap / (settings.gap_tolerance * size));
+        let good = open <= WORTH_CLOSING;
+        if best.as_ref().is_none_or(|(least, ..)| open < *least) {
+            best = Some((open, report, body.collision_state()));
         }
-        report.left = contacts.iter().map(|contact| contact.shortest_depth(body, parts)).fold(0.0, f32::max);
-        if report.left < best.worst {
-            best = Best { worst: report.left, positions: body.positions().to_vec(), passes: report.passes };
-        }
-        let stuck = report.passes - best.passes >= PATIENCE;
-        if contacts.is_empty() || stuck || report.passes >= settings.max_passes {
+        if good {
             break;
         }
-        let softness = settings.softness.unwrap_or(body.rig().softness);
-        let mut reach = softness.clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
-        if report.passes >= WIDE_PASSES && small {
-            // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
-            reach *= 0.5;
-            contacts =
-                contacts.into_iter().map(|c| if c.pierced { c } else { c.by_the_nearest_way(body, parts) }).collect();
-        }
-        let height = contacts.iter().map(Contact::depth).fold(0.0, f32::max).min(GUARD_HEIGHT * size);
-        let guards = find_guards(body, parts, near, &contacts, height);
-        let mut all = contacts.clone();
-        add_guards(body, parts, guards, &mut all);
-        let least = vec![0.0; all.len()];
-        let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, reach, size, settings);
-        if report.passes == 0 {
-            report.contacts = contacts;
-        }
-        for (contact, strength) in all.iter().zip(strengths).filter(|(_, strength)| *strength > 0.0) {
-            report.hold(contact, strength);
-        }
-        report.passes += 1;
-        body.deform_collision(pass);
+        body.resume(&start);
     }
-    if report.left <= 0.0 {
-        close_gaps(body, parts, near, size, settings, &mut report);
-    } else if best.passes < report.passes {
-        body.restore(&best.positions, before + best.passes as usize);
-        (report.passes, report.left) = (best.passes, best.worst);
-    }
+    let Some((_, report, state)) = best else { return CancelReport::default() };
+    body.resume(&state);
     report
 }
 
+/// Ways to go about it, in the order in which they are tried: how many times softer than the rig says, and the stride.
+const WAYS: [(f32, f32); 5] = [(1.0, 0.12), (0.6, 0.12), (1.0, 0.06), (1.6, 0.12), (0.4, 0.08)];
+
 impl CancelReport {
     /// Notes that a contact's own field pushes.
-    fn hold(&mut self, pushing: &Contact, strength: f32) {
+    pub(super) fn hold(&mut self, pushing: &Contact, strength: f32) {
         let parts = pushing.parts();
         for contact in &mut self.contacts {
             if contact.near.segment == pushing.near.segment && !contact.parts().is_disjoint(&parts) {
@@ -141,82 +124,6 @@ impl CancelReport {
         }
     }
 }
-
-/// Takes back what contacts were pushed too far: a later pass for one contact may have carried another off its obstacle.
-fn close_gaps(
-    body: &mut ElasticBody,
-    parts: &[ObstaclePart],
-    near: &[Proximity],
-    size: f32,
-    settings: &CancelSettings,
-    report: &mut CancelReport,
-) {
-    let (tolerance, close) = (settings.depth_tolerance * size, WORTH_CLOSING * settings.gap_tolerance * size);
-    let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
-    for _ in 0..CLOSING_PASSES {
-        let watched: Vec<(Contact, f32)> =
-            report.contacts.iter().filter_map(|contact| contact.watched(body, parts)).collect();
-        let pulled = watched.iter().filter(|(contact, gap)| *gap > close && contact.pushed > 0.0);
-        let widest = pulled.map(|(_, gap)| *gap).fold(0.0, f32::max);
-        if widest <= 0.0 {
-            return;
-        }
-        let mut all: Vec<Contact> = watched.into_iter().map(|(contact, _)| contact).collect();
-        let guards = find_guards(body, parts, near, &all, (2.0 * widest).min(GUARD_HEIGHT * size));
-        add_guards(body, parts, guards, &mut all);
-        let least: Vec<f32> = all.iter().map(|contact| -contact.pushed).collect();
-        let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, softness, size, settings);
-        let (before, passes) = (body.positions().to_vec(), body.palette().passes.len());
-        body.deform_collision(pass);
-        let mut taken = 1;
-        let mut inside = left_over(body, parts, near, tolerance);
-        if !inside.is_empty() {
-            // What sank in a little between the points that were watched comes out again.
-            let guards = find_guards(body, parts, near, &inside, widest);
-            add_guards(body, parts, guards, &mut inside);
-            let least = vec![0.0; inside.len()];
-            let (pass, _) = solve_pass(body, (parts, near), &inside, &least, softness, size, settings);
-            body.deform_collision(pass);
-            taken = 2;
-            inside = left_over(body, parts, near, tolerance);
-        }
-        let gap = |contact: &Contact| contact.watched(body, parts).map_or(0.0, |(_, gap)| gap);
-        let left = report.contacts.iter().filter(|contact| contact.pushed > 0.0).map(gap).fold(0.0, f32::max);
-        if !inside.is_empty() || left >= widest {
-            body.restore(&before, passes);
-            return;
-        }
-        report.passes += taken;
-        for (contact, strength) in all.iter().zip(strengths).filter(|(_, strength)| *strength != 0.0) {
-            report.hold(contact, strength);
-        }
-        // What was taken back altogether is carried by others.
-        report.contacts.iter_mut().for_each(|contact| contact.held &= contact.pushed > tolerance);
-    }
-}
-
-/// All that is inside: vertices and pierced triangles.
-fn left_over(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
-    let mut contacts = find_contacts(body, parts, near, tolerance);
-    add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
-    contacts
-}
-
-/// Gaps are closed from this many tolerances on.
-const WORTH_CLOSING: f32 = 2.0;
-
-/// Most passes that close gaps.
-const CLOSING_PASSES: u32 = 2;
-
-/// The best state so far.
-struct Best {
-    worst: f32,
-    positions: Vec<Vec3>,
-    passes: u32,
-}
-
-/// Passes that may go by without any gain.
-const PATIENCE: u32 = 2;
 
 /// One pass with the paper's placement.
 fn literal(
@@ -233,18 +140,12 @@ fn literal(
     let pass = super::literal::place(body, parts, near, settings.softness.unwrap_or(body.rig().softness));
     body.deform_collision(pass);
     let contacts = contacts.into_iter().map(|contact| Contact { held: true, ..contact }).collect();
-    CancelReport { contacts, passes: 1, left: 0.0 }
+    CancelReport { contacts, passes: 1, ..CancelReport::default() }
 }
 
 /// Softness outside of these bounds is taken as the bound.
 const LEAST_SOFTNESS: f32 = 0.05;
 const MOST_SOFTNESS: f32 = 10.0;
 
-/// Parts within this part of the size are guarded while others push.
-const GUARD_HEIGHT: f32 = 0.15;
-
-/// Depths below this part of the size are small: then triangles are looked at too, and the shortest way out is the best.
-const SMALL: f32 = 0.04;
-
-/// Passes with fields of full width.
-const WIDE_PASSES: u32 = 2;
+/// From this many tolerances on what is left over is worth another way, and gaps are worth closing.
+pub(super) const WORTH_CLOSING: f32 = 2.0;

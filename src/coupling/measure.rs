@@ -118,7 +118,7 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelRe
             contact.parts().into_iter().map(|part| parts[part].collider.into_raw_parts()).collect();
         let obstacle: Vec<&ObstaclePart> =
             colliders.iter().flat_map(|collider| &obstacles[collider]).copied().collect();
-        contact_gap(body, contact, &obstacle, PIERCING_RESOLUTION * size)
+        contact_gap(body, contact, parts, &obstacle, PIERCING_RESOLUTION * size)
     };
     let own: Vec<f32> = report.contacts.par_iter().map(gap).collect();
     let together = |a: &Contact, b: &Contact| {
@@ -143,8 +143,14 @@ fn overlap(a: &Contact, b: &Contact) -> bool {
 
 /// The distance between the skin of a contact and an obstacle, zero where it is at most `close`.
 ///
-/// Vertices first; then the triangles around them, whose nearest point may lie between the corners.
-fn contact_gap(body: &ElasticBody, contact: &Contact, obstacle: &[&ObstaclePart], close: f32) -> f32 {
+/// The skin that is at the place of the contact now counts, whether it was in the obstacle or not. Vertices first; then the triangles around them, whose nearest point may lie between the corners.
+fn contact_gap(
+    body: &ElasticBody,
+    contact: &Contact,
+    parts: &[ObstaclePart],
+    obstacle: &[&ObstaclePart],
+    close: f32,
+) -> f32 {
     let positions = body.positions();
     let exact = |x: Vec3| obstacle.iter().map(|part| part.exact_distance(x)).fold(f32::INFINITY, f32::min);
     let mut best = f32::INFINITY;
@@ -154,7 +160,15 @@ fn contact_gap(body: &ElasticBody, contact: &Contact, obstacle: &[&ObstaclePart]
             return 0.0;
         }
     }
-    let members: Vec<usize> = contact.points.iter().flat_map(|p| p.point.corners()).map(|(v, _)| v).collect();
+    let beside = contact.beside(body, parts);
+    for p in &beside {
+        best = best.min(exact(p.point.position(positions)));
+        if best <= close {
+            return 0.0;
+        }
+    }
+    let all = contact.points.iter().chain(&beside);
+    let members: Vec<usize> = all.flat_map(|p| p.point.corners()).map(|(v, _)| v).collect();
     let mut is_member = vec![false; positions.len()];
     members.iter().for_each(|&v| is_member[v] = true);
     for t in body.rig().mesh.triangles.iter().filter(|t| t.iter().any(|&v| is_member[v as usize])) {

@@ -2,7 +2,9 @@
 //!
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
+mod attempt;
 mod cancel;
+mod closing;
 mod coherence;
 mod common_way;
 mod contact;

@@ -281,13 +281,32 @@ impl Contact {
             return None;
         }
         let distance = |p: &Penetration| parts[p.part].placed.distance(p.point.position(body.positions())).0;
-        let points: Vec<Penetration> = self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
+        let mut points: Vec<Penetration> =
+            self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
+        points.extend(self.beside(body, parts));
         let gap = points.iter().map(|p| -p.depth).fold(f32::INFINITY, f32::min);
         let height = gap + WATCHED * body.skins()[usize::from(self.near.segment)].size;
         let points: Vec<Penetration> = points.into_iter().filter(|p| -p.depth < height).collect();
         let near = self.nearest_of(&points);
         let guard = Self::guarding(body, near, points, height);
         Some((Self { held: true, pushed: self.pushed, ..guard }, gap))
+    }
+
+    /// The skin that is at the place of the contact now: what went in has slid along the part, and other skin has come.
+    pub fn beside(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Vec<Penetration> {
+        let around = self.radius + self.depth();
+        let own: BTreeSet<u32> = self.points.iter().map(|p| p.point.vertices[0]).collect();
+        let touched = self.parts();
+        let here = |&vertex: &u32| {
+            let x = body.positions()[vertex as usize];
+            if x.distance(self.centre) > around || own.contains(&vertex) {
+                return None;
+            }
+            let distances = touched.iter().map(|&part| (parts[part].placed.distance(x).0, part));
+            let (distance, part) = distances.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some(Penetration { point: SkinPoint::vertex(vertex), part, depth: -distance })
+        };
+        body.skins()[usize::from(self.near.segment)].vertices.iter().filter_map(here).collect()
     }
 
     /// The proximity with the part of the nearest of these points.

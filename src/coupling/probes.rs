@@ -110,4 +110,4 @@ fn outcome(contact: &Contact, parts: &[ObstaclePart], probe: &Penetration, x: Ve
 }
 
 const PROBES_DEEPEST: usize = 8;
-const PROBES_SPREAD: usize = 8;
+const PROBES_SPREAD: usize = 16;

@@ -13,6 +13,15 @@ use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField, S
 use crate::field::{HuggingField, Lipschitz, Patch, usual_steps};
 use crate::math::{Pose, Vec3};
 
+/// How passes go about their work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Way {
+    /// Fields fade out over this many sizes of the segment.
+    pub softness: f32,
+    /// The way that is gone in one pass where contacts push against each other, in sizes of the body.
+    pub stride: f32,
+}
+
 /// The fields of one pass, and their strengths, solved so that every contact ends touching or needs no push of its own.
 ///
 /// `least` are the least strengths: 0, or minus what the contact's own fields have pushed before, which may be taken back.
@@ -21,25 +30,27 @@ pub(super) fn solve_pass(
     (parts, near): (&[ObstaclePart], &[Proximity]),
     contacts: &[Contact],
     least: &[f32],
-    softness: f32,
+    way: Way,
     size: f32,
     settings: &CancelSettings,
 ) -> (CollisionPass, Vec<f32>) {
     let n = contacts.len();
-    let mut pass = CollisionPass { fields: place_fields(body, parts, near, contacts, softness), steps: 1 };
+    let mut pass = CollisionPass { fields: place_fields(body, parts, near, contacts, way.softness), steps: 1 };
     let mut strength: Vec<f32> = contacts.iter().map(Contact::depth).collect();
     // Aim a little outside: what the solve leaves open then does not end inside. Where contacts push against each other
     // only a stride of the way is gone at once.
-    let part = stride(contacts, size);
+    let part = stride_of(contacts, way.stride * size);
     let aim: Vec<f32> =
         contacts.iter().map(|contact| 0.5 * settings.depth_tolerance * size - (1.0 - part) * contact.depth()).collect();
     strength.iter_mut().for_each(|strength| *strength *= part);
+    let depth_tolerance = settings.depth_tolerance * size;
     let gap_tolerance = settings.gap_tolerance * size;
-    let slack = 0.5 * settings.depth_tolerance * size;
+    let slack = 0.5 * depth_tolerance;
     let deepest = contacts.iter().map(Contact::depth).chain(least.iter().map(|least| -least)).fold(0.0, f32::max);
     let strongest = STRONGEST * deepest;
     let mut probes = Probes::new(contacts);
     let mut best = (f32::INFINITY, strength.clone());
+    let (mut target, mut fraction) = (strength.clone(), 1.0_f32);
     for _ in 0..settings.max_rounds {
         set_strengths(&mut pass, contacts, &strength, body, settings);
         let outcome = probes.outcomes(body, &pass, contacts, parts);
@@ -49,25 +60,34 @@ pub(super) fn solve_pass(
             .zip(&aim)
             .zip(least)
             .any(|(((o, s), aim), least)| o.gap < aim - slack || (o.gap > aim + gap_tolerance && s > least));
-        let missed = !open && probes.extend(body, &pass, contacts, parts, &aim, settings.depth_tolerance * size);
+        let missed = !open && probes.extend(body, &pass, contacts, parts, &aim, depth_tolerance);
         if !open && !missed {
             best = (0.0, strength);
             break;
         }
         let score = if missed { f32::INFINITY } else { openness(&outcome, &strength, &aim, least) };
-        if score < best.0 {
+        if score < best.0 || missed {
             best = (score, strength.clone());
-        }
-        let matrix = influence(body, &pass, contacts, &outcome, &strength);
-        let wanted: Vec<f32> = (0..n)
-            .map(|i| {
-                let row = &matrix[i * n..(i + 1) * n];
-                row.iter().zip(&strength).map(|(a, s)| a * s).sum::<f32>() + aim[i] - outcome[i].gap
-            })
-            .collect();
-        complementarity(&matrix, &wanted, least, &mut strength);
-        for strength in &mut strength {
-            *strength = strength.min(strongest);
+            let matrix = influence(body, &pass, contacts, &outcome, &strength);
+            let wanted: Vec<f32> = (0..n)
+                .map(|i| {
+                    let row = &matrix[i * n..(i + 1) * n];
+                    row.iter().zip(&strength).map(|(a, s)| a * s).sum::<f32>() + aim[i] - outcome[i].gap
+                })
+                .collect();
+            complementarity(&matrix, &wanted, least, &mut strength);
+            for strength in &mut strength {
+                *strength = strength.min(strongest);
+            }
+            (target, fraction) = (strength.clone(), 1.0);
+        } else {
+            // Too far: the influences hold for a part of the way only.
+            fraction *= SHORTER;
+            if fraction < SHORTEST {
+                break;
+            }
+            let between = best.1.iter().zip(&target).map(|(from, to)| from + (to - from) * fraction);
+            strength = between.collect();
         }
     }
     let strength = best.1;
@@ -75,6 +95,10 @@ pub(super) fn solve_pass(
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     (pass, strength)
 }
+
+/// A step of the solve that made it worse is tried anew with this part of its length, down to the least.
+const SHORTER: f32 = 0.5;
+const SHORTEST: f32 = 0.2;
 
 /// How far the contacts are from touching: the worst depth that is left, and to a part the widest gap.
 fn openness(outcome: &[Outcome], strength: &[f32], aim: &[f32], least: &[f32]) -> f32 {
@@ -96,20 +120,17 @@ const GAP_COUNTS: f32 = 0.5;
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
 /// one of them then flows towards the next, and the strengths are right for a short way only.
-fn stride(contacts: &[Contact], size: f32) -> f32 {
+fn stride_of(contacts: &[Contact], stride: f32) -> f32 {
     let against = |a: &Contact| contacts.iter().any(|b| a.near.normal.dot(b.near.normal) < AGAINST_EACH_OTHER);
     if contacts.len() < 3 || !contacts.iter().any(against) {
         return 1.0;
     }
     let deepest = contacts.iter().map(Contact::depth).fold(0.0, f32::max);
-    (STRIDE * size / deepest.max(f32::MIN_POSITIVE)).min(1.0)
+    (stride / deepest.max(f32::MIN_POSITIVE)).min(1.0)
 }
 
 /// Contacts push against each other below this cosine of the angle between their directions.
 const AGAINST_EACH_OTHER: f32 = -0.3;
-
-/// What is gone in one pass against others, in sizes of the body.
-const STRIDE: f32 = 0.12;
 
 /// A field is at most this many times as strong as the deepest contact is deep: more would mean that it works against others,
 /// and the next pass, with new contacts, does better.

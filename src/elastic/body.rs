@@ -72,7 +72,7 @@ pub struct ElasticBody {
     sets: Vec<MassSpringSet>,
     pub(super) palette: Palette,
     pub(super) draggers: Draggers,
-    positions: Vec<Vec3>,
+    pub(super) positions: Vec<Vec3>,
     normals: BodyNormals,
     order: Arc<SkinOrder>,
     /// Scratch for the results of batches.
@@ -240,15 +240,6 @@ impl ElasticBody {
             self.palette.segments.push(SegmentEntry { motion: *motion, local, global });
         }
         self.build_drags();
-    }
-
-    /// Takes back all collision passes but the first `passes`, after which the skin was at `positions`. Nothing happens
-    /// unless there is one position a vertex.
-    pub fn restore(&mut self, positions: &[Vec3], passes: usize) {
-        if positions.len() == self.positions.len() {
-            self.positions.copy_from_slice(positions);
-            self.palette.passes.truncate(passes);
-        }
     }
 
     /// Where the rigid segments alone would carry each vertex: equation (18) without fields.

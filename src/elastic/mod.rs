@@ -3,6 +3,7 @@
 mod body;
 mod body_draggers;
 mod body_normals;
+mod collision_state;
 mod deform;
 mod deform_wide;
 mod drag_stage;
@@ -23,6 +24,7 @@ mod weights;
 pub use crate::files::{MAX_TOML_BYTES, TomlError, TomlKey, TomlText, did_you_mean};
 pub use body::{DeformSettings, ElasticBody, LevelOfDetail};
 pub use body_normals::Normals;
+pub use collision_state::CollisionState;
 pub use drag_stage::{DragField, DragStage, NO_SEGMENT};
 pub use dragger::{DEFAULT_RELEASE, Dragger, DraggerError, DraggerHandle, DraggerStart, Grip};
 pub use palette::{CollisionField, CollisionPass, Palette, SegmentEntry, SegmentField, SpringStage};

@@ -111,6 +111,8 @@ pub(super) struct Entry {
     pub memories: ContactMemories,
     /// Segments of the body that may touch each other.
     pub self_pairs: Arc<BTreeSet<(usize, usize)>>,
+    /// How the last cancellation went about its work.
+    pub way: usize,
     /// For the measurement of the time coherence.
     pub coherence: CoherenceMemory,
     /// False until the body has been placed on its rigid bodies.
@@ -211,6 +213,7 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
+            way: 0,
             self_pairs,
             coherence: CoherenceMemory::default(),
             placed,

@@ -225,7 +225,11 @@ fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Froze
 /// Cancels what one body penetrates, in addition to what was cancelled before.
 fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSettings) {
     if entry.body.settings.enabled {
-        let report = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, settings);
+        let settings = CancelSettings { first_way: entry.way, ..*settings };
+        let report = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, &settings);
+        if encounter.cancelled.contacts.is_empty() {
+            entry.way = report.way;
+        }
         encounter.cancelled.passes += report.passes;
         encounter.cancelled.left = report.left;
         encounter.cancelled.contacts.extend(report.contacts);
