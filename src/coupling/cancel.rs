@@ -3,6 +3,7 @@
 
 use super::attempt::attempt;
 use super::contact::Proximity;
+use super::folds::count_folds;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, find_contacts};
 use super::strength::Way;
@@ -88,16 +89,19 @@ pub fn cancel(
     }
     let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
     let start = body.collision_state();
-    let mut best: Option<(f32, CancelReport, CollisionState)> = None;
+    let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
     let others = (0..WAYS.len()).filter(|&way| way != settings.first_way);
     for way in std::iter::once(settings.first_way.min(WAYS.len() - 1)).chain(others) {
         let (softer, stride) = WAYS[way];
         let mut report = attempt(body, parts, near, Way { softness: softness * softer, stride }, size, settings);
-        report.way = if report.passes > 0 { way } else { 0 };
-        let open = (report.left / (settings.depth_tolerance * size)).max(report.gap / (settings.gap_tolerance * size));
-        let good = open <= WORTH_CLOSING;
-        if best.as_ref().is_none_or(|(least, ..)| open < *least) {
-            best = Some((open, report, body.collision_state()));
+        if report.passes == 0 && report.left <= 0.0 {
+            return report;
+        }
+        report.way = way;
+        let grade = Grade::of(&report, body, &start, size, settings);
+        let good = grade.open <= 0.0 && grade.folds == 0;
+        if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
+            best = Some((grade, report, body.collision_state()));
         }
         if good {
             break;
@@ -107,6 +111,35 @@ pub fn cancel(
     let Some((_, report, state)) = best else { return CancelReport::default() };
     body.resume(&state);
     report
+}
+
+/// What is wrong with the outcome of a way; of two, the lower is the better one. What comes first counts first.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+struct Grade {
+    /// How many times the tolerance a depth or a gap is; 0 where it is not worth another way.
+    open: f32,
+    /// Triangles turned over.
+    folds: u32,
+    /// Passes.
+    passes: u32,
+}
+
+impl Grade {
+    fn of(
+        report: &CancelReport,
+        body: &ElasticBody,
+        start: &CollisionState,
+        size: f32,
+        settings: &CancelSettings,
+    ) -> Self {
+        let depth = report.left / (settings.depth_tolerance * size);
+        let open = depth.max(report.gap / (settings.gap_tolerance * size));
+        Self {
+            open: if open <= WORTH_CLOSING { 0.0 } else { open },
+            folds: count_folds(body, start.positions(), size),
+            passes: report.passes,
+        }
+    }
 }
 
 /// Ways to go about it, in the order in which they are tried: how many times softer than the rig says, and the stride.

@@ -74,4 +74,3 @@ fn left_over(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tol
 
 /// Most passes that close gaps.
 const CLOSING_PASSES: u32 = 2;
-

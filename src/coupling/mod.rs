@@ -24,6 +24,7 @@ pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
 pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
+pub use folds::count_folds;
 pub use gauge::gauge_point;
 pub use magnitude::complementarity;
 pub use obstacle::{
@@ -37,6 +38,7 @@ pub use pairs::{
 pub use penetrations::{Contact, Penetration, find_contacts, find_guards, find_piercings};
 pub use piercing::{deepest_on_triangle, pierced};
 pub use skin_point::SkinPoint;
+mod folds;
 mod foundation;
 mod measure;
 mod ragdoll;

@@ -194,10 +194,10 @@ pub fn add_guards(body: &ElasticBody, parts: &[ObstaclePart], guards: Vec<Contac
 }
 
 /// A way out is taken where it is at most this many times as long as the shortest.
-const ASKEW: f32 = 5.0;
+pub(super) const ASKEW: f32 = 5.0;
 
 /// A triangle counts as pierced from this many times the tolerance of vertices on.
-const PIERCED: f32 = 2.0;
+pub(super) const PIERCED: f32 = 2.0;
 
 /// Contacts of one segment with parts that touch each other count as one where they push nearly the same way: the fields
 /// of a hundred small parts side by side would only push against each other.

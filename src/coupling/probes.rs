@@ -3,13 +3,18 @@
 use rayon::prelude::*;
 
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, Penetration};
+use super::penetrations::{ASKEW, Contact, PIERCED, Penetration};
+use super::piercing::{Height, pierced};
 use super::skin_point::{SkinPoint, flow_all};
 use crate::elastic::{CollisionPass, ElasticBody};
 use crate::math::Vec3;
 
 /// The few points on which the strengths are solved: for each contact the deepest, and some of the others.
-pub(super) struct Probes(Vec<Vec<Penetration>>);
+pub(super) struct Probes {
+    points: Vec<Vec<Penetration>>,
+    /// The triangles of the skin around each contact: tips and edges may pierce them when their corners have been carried out.
+    around: Vec<SkinPatch>,
+}
 
 /// Where a contact ended: the signed gap (negative inside) and the point that decides it.
 #[derive(Clone, Copy)]
@@ -21,13 +26,14 @@ pub(super) struct Outcome {
 }
 
 impl Probes {
-    pub fn new(contacts: &[Contact]) -> Self {
+    pub fn new(body: &ElasticBody, contacts: &[Contact]) -> Self {
         let choose = |contact: &Contact| {
             let stride = (contact.points.len() / PROBES_SPREAD).max(1);
             let rest = contact.points.iter().skip(PROBES_DEEPEST).step_by(stride);
             contact.points.iter().take(PROBES_DEEPEST).chain(rest).copied().collect()
         };
-        Self(contacts.iter().map(choose).collect())
+        let around = contacts.par_iter().map(|contact| SkinPatch::of(body, contact)).collect();
+        Self { points: contacts.iter().map(choose).collect(), around }
     }
 
     /// Where each contact ends under `pass`, judged by its probes.
@@ -38,7 +44,7 @@ impl Probes {
         contacts: &[Contact],
         parts: &[ObstaclePart],
     ) -> Vec<Outcome> {
-        let lists: Vec<&[Penetration]> = self.0.iter().map(Vec::as_slice).collect();
+        let lists: Vec<&[Penetration]> = self.points.iter().map(Vec::as_slice).collect();
         let worst = |outcomes: Vec<Outcome>| {
             let none = Outcome { gap: f32::INFINITY, point: SkinPoint::vertex(0) };
             outcomes.into_iter().fold(none, |a, b| if b.gap < a.gap { b } else { a })
@@ -46,8 +52,8 @@ impl Probes {
         ends(body, pass, contacts, &lists, parts).into_iter().map(worst).collect()
     }
 
-    /// Looks at all points of the contacts under `pass` and adds those that end deeper than their contact's `aim` (a gap) by
-    /// more than `tolerance`: true if any.
+    /// Looks at all points of the contacts under `pass`, and at the triangles around them, and adds those that end deeper than
+    /// their contact's `aim` (a gap) by more than `tolerance`: true if any.
     pub fn extend(
         &mut self,
         body: &ElasticBody,
@@ -60,19 +66,78 @@ impl Probes {
         let lists: Vec<&[Penetration]> = contacts.iter().map(|contact| contact.points.as_slice()).collect();
         let all = ends(body, pass, contacts, &lists, parts);
         let mut any = false;
-        for (((contact, outcomes), probes), &aim) in contacts.iter().zip(all).zip(&mut self.0).zip(aim) {
-            let ends = outcomes.into_iter().zip(&contact.points);
-            let mut inside: Vec<_> = ends.filter(|(outcome, _)| outcome.gap < aim - tolerance).collect();
+        for (i, (contact, outcomes)) in contacts.iter().zip(all).enumerate() {
+            let ends = outcomes.into_iter().zip(contact.points.iter().copied());
+            let mut inside: Vec<_> = ends.filter(|(outcome, _)| outcome.gap < aim[i] - tolerance).collect();
+            if inside.is_empty() {
+                let pierced = self.around[i].pierced(body, pass, contact, parts, PIERCED * tolerance);
+                inside = pierced.into_iter().filter(|(outcome, _)| outcome.gap < aim[i] - tolerance).collect();
+            }
             inside.sort_by(|(a, _), (b, _)| a.gap.total_cmp(&b.gap).then(a.point.vertices.cmp(&b.point.vertices)));
             inside.truncate(PROBES_SPREAD);
             for (_, missed) in inside {
-                if !probes.contains(missed) {
-                    probes.push(*missed);
+                if !self.points[i].contains(&missed) {
+                    self.points[i].push(missed);
                     any = true;
                 }
             }
         }
         any
+    }
+}
+
+/// The triangles of the skin around a contact.
+struct SkinPatch {
+    triangles: Vec<[u32; 3]>,
+    vertices: Vec<SkinPoint>,
+}
+
+impl SkinPatch {
+    /// None for a guard.
+    fn of(body: &ElasticBody, contact: &Contact) -> Self {
+        let mut patch = Self { triangles: Vec::new(), vertices: Vec::new() };
+        if contact.depth() <= 0.0 {
+            return patch;
+        }
+        let skin = &body.skins()[usize::from(contact.near.segment)];
+        let reach = contact.radius + contact.depth() + skin.longest_edge;
+        let near = |&v: &u32| body.positions()[v as usize].distance_squared(contact.centre) < reach * reach;
+        let corners = skin.triangles.iter().map(|&t| body.rig().mesh.triangles[t as usize]);
+        patch.triangles = corners.filter(|corners| corners.iter().any(near)).collect();
+        let mut vertices: Vec<u32> = patch.triangles.iter().flatten().copied().collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        patch.vertices = vertices.into_iter().map(SkinPoint::vertex).collect();
+        patch
+    }
+
+    /// The points of triangles that parts of the contact pierce under `pass`, and where they end.
+    fn pierced(
+        &self,
+        body: &ElasticBody,
+        pass: &CollisionPass,
+        contact: &Contact,
+        parts: &[ObstaclePart],
+        tolerance: f32,
+    ) -> Vec<(Outcome, Penetration)> {
+        let carried = flow_all(body, pass, &self.vertices);
+        let place = |v: u32| self.vertices.binary_search_by_key(&v, |point| point.vertices[0]).unwrap_or(0);
+        let mut found = Vec::new();
+        for part in contact.parts() {
+            let placed = &parts[part].placed;
+            let heights: Vec<Height> = carried.iter().map(|&x| placed.signed_distance(x)).collect();
+            for &vertices in &self.triangles {
+                let at = vertices.map(place);
+                let (corners, ends) = (at.map(|i| carried[i]), at.map(|i| heights[i]));
+                let Some((point, depth)) = pierced(placed, vertices, corners, ends, tolerance) else { continue };
+                let x = point.position_of(corners);
+                let along = parts[part].exit(x, contact.near.normal, ASKEW * depth);
+                if along.is_some_and(|along| along < ASKEW * depth) {
+                    found.push((Outcome { gap: -along.unwrap_or(depth), point }, Penetration { point, part, depth }));
+                }
+            }
+        }
+        found
     }
 }
 

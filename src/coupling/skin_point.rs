@@ -36,11 +36,15 @@ impl SkinPoint {
         self.corners().map(|(v, w)| positions[v] * w).sum()
     }
 
+    /// Where the point is when its three vertices are at these corners.
+    pub fn position_of(&self, corners: [Vec3; 3]) -> Vec3 {
+        corners[0] * self.weights[0] + corners[1] * self.weights[1] + corners[2] * self.weights[2]
+    }
+
     /// The point's share in a field: see [`SkinWeights::share_of`](crate::elastic::SkinWeights::share_of).
     pub fn share_of(&self, rig: &ElasticRig, shares: &[f32]) -> f32 {
         self.corners().map(|(v, w)| rig.weights[v].share_of(shares) * w).sum()
     }
-
 }
 
 /// Where a pass carries points of the skin: their corners are carried eight at a time.

@@ -48,7 +48,7 @@ pub(super) fn solve_pass(
     let slack = 0.5 * depth_tolerance;
     let deepest = contacts.iter().map(Contact::depth).chain(least.iter().map(|least| -least)).fold(0.0, f32::max);
     let strongest = STRONGEST * deepest;
-    let mut probes = Probes::new(contacts);
+    let mut probes = Probes::new(body, contacts);
     let mut best = (f32::INFINITY, strength.clone());
     let (mut target, mut fraction) = (strength.clone(), 1.0_f32);
     for _ in 0..settings.max_rounds {

@@ -11,6 +11,13 @@ pub struct CollisionState {
     passes: Vec<CollisionPass>,
 }
 
+impl CollisionState {
+    /// The vertices of the skin.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+}
+
 impl ElasticBody {
     /// The skin and the collision passes as they are now.
     pub fn collision_state(&self) -> CollisionState {

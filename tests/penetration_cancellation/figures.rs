@@ -1,10 +1,11 @@
 //! What is measured of a cancelled body.
 
-use pliant::coupling::{CancelReport, CancelSettings, INSIDE, PIERCED, PenetrationFigures, cancel, measure};
+use pliant::coupling::{
+    CancelReport, CancelSettings, INSIDE, PIERCED, PenetrationFigures, cancel, count_folds, measure,
+};
 use pliant::elastic::CollisionPass;
 use pliant::math::Vec3;
 use pliant::mesh::measure::signed_volume;
-use rayon::prelude::*;
 
 use crate::poses::Case;
 
@@ -31,7 +32,7 @@ pub fn cancelled(case: &mut Case, settings: &CancelSettings, exact: bool) -> (Fi
     let change = |positions: &[Vec3]| (signed_volume(positions, triangles) / before - 1.0) as f32;
     let report = cancel(&mut case.body, &case.parts, &case.near, case.size, settings);
     let volume = change(case.body.positions());
-    let folded = folded(case, twin.positions());
+    let folded = count_folds(&case.body, twin.positions(), case.size);
     let mut drift = 0.0;
     if exact {
         for pass in &case.body.palette().passes {
@@ -52,28 +53,6 @@ pub fn cancelled(case: &mut Case, settings: &CancelSettings, exact: bool) -> (Fi
 
 /// With this many times the steps a flow counts as exact: the midpoint rule is then 64 times as exact.
 const EXACT: u32 = 8;
-
-/// Triangles whose three corners' normals, carried by the flow, all point against the triangle's own.
-///
-/// Only triangles that turned by more than 60 degrees are looked at: carrying normals is costly.
-fn folded(case: &Case, before: &[Vec3]) -> u32 {
-    let (body, rig) = (&case.body, case.body.rig());
-    let epsilon = 1e-4 * case.size;
-    let carried = |v: u32| {
-        let v = v as usize;
-        let (rest, weights) = (rig.mesh.positions[v], &rig.weights[v]);
-        body.palette().deform_with_normal(rest, rig.mesh.normals[v], weights, epsilon).1
-    };
-    let normal = |positions: &[Vec3], t: &[u32; 3]| {
-        let corner = t.map(|v| positions[v as usize]);
-        (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalize_or_zero()
-    };
-    let turned = |t: &&[u32; 3]| {
-        let own = normal(body.positions(), t);
-        own.dot(normal(before, t)) < 0.5 && t.iter().all(|&v| carried(v).dot(own) < 0.0)
-    };
-    rig.mesh.triangles.par_iter().filter(turned).count() as u32
-}
 
 /// What is asserted of every pose.
 #[derive(Clone, Copy, Debug)]
