@@ -136,11 +136,14 @@ impl Grade {
         let open = depth.max(report.gap / (settings.gap_tolerance * size));
         Self {
             open: if open <= WORTH_CLOSING { 0.0 } else { open },
-            folds: count_folds(body, start.positions(), size),
+            folds: count_folds(body, start.positions(), size, TURNED),
             passes: report.passes,
         }
     }
 }
+
+/// Cosine of the angle by which a triangle has turned that is looked at for a fold.
+const TURNED: f32 = 0.0;
 
 /// Ways to go about it, in the order in which they are tried: how many times softer than the rig says, and the stride.
 const WAYS: [(f32, f32); 5] = [(1.0, 0.12), (0.6, 0.12), (1.0, 0.06), (1.6, 0.12), (0.4, 0.08)];

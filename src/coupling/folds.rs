@@ -7,9 +7,9 @@ use crate::math::Vec3;
 
 /// The number of triangles whose three corners' normals, carried by the flow, all point against the triangle's own.
 ///
-/// Only triangles that turned by more than 60 degrees since they were at `before` are looked at: carrying normals is costly.
-/// `size` is the body's size.
-pub fn count_folds(body: &ElasticBody, before: &[Vec3], size: f32) -> u32 {
+/// Only triangles that turned since they were at `before` by more than the angle with the cosine `turned` are looked at:
+/// carrying normals is costly. `size` is the body's size.
+pub fn count_folds(body: &ElasticBody, before: &[Vec3], size: f32, turned: f32) -> u32 {
     let (rig, palette, epsilon) = (body.rig(), body.palette(), NORMAL_STEP * size);
     let carried = |v: u32| {
         let v = v as usize;
@@ -22,14 +22,11 @@ pub fn count_folds(body: &ElasticBody, before: &[Vec3], size: f32) -> u32 {
             return false;
         }
         let (now, then) = (normal(now), normal(then));
-        let turned = now.dot(then) < TURNED * now.length() * then.length();
-        turned && t.iter().all(|&v| carried(v).dot(now) < 0.0)
+        let far = now.dot(then) < turned * now.length() * then.length();
+        far && t.iter().all(|&v| carried(v).dot(now) < 0.0)
     };
     rig.mesh.triangles.par_iter().with_min_len(1024).filter(folded).count() as u32
 }
 
 /// Normals are carried by differences over this part of the size.
 const NORMAL_STEP: f32 = 1.0e-4;
-
-/// Cosine of the angle from which on a triangle is looked at.
-const TURNED: f32 = 0.5;

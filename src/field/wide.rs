@@ -124,7 +124,7 @@ impl HuggingField {
         }
         let axis = |row: usize| shifted.dot_all(frame.row(row));
         let local = WideVec { x: axis(0), y: axis(1), z: axis(2) };
-        let away = self.outside_wide(local);
+        let away = self.outside_wide(local, patch.0);
         let length = away.dot(away).sqrt();
         let width = f32x8::splat(1.0 / self.width);
         let rounding = f32x8::splat(self.part.part().rounding);
@@ -173,9 +173,10 @@ impl HuggingField {
         (k * k, away.scaled(slope / distance.max(f32x8::splat(f32::MIN_POSITIVE))))
     }
 
-    /// Eight points of the part's frame minus their nearest points of the part before rounding.
+    /// Eight points of the part's frame minus their nearest points of the part before rounding; any vector longer than the
+    /// field is wide for points beyond that, and for those outside the patch.
     #[inline]
-    fn outside_wide(&self, x: WideVec) -> WideVec {
+    fn outside_wide(&self, x: WideVec, patch: f32x8) -> WideVec {
         let zero = f32x8::ZERO;
         match &self.part.part().shape {
             PartShape::Point => x,
@@ -202,7 +203,7 @@ impl HuggingField {
                 let above = height.simd_gt(zero).select(height, zero);
                 WideVec::splat(*normal).scaled(above)
             }
-            PartShape::Hull(hull) => outside_hull_wide(x, hull),
+            PartShape::Hull(hull) => outside_hull_wide(x, hull, patch, self.width + self.part.part().rounding),
             PartShape::Cone { .. } => {
                 let outside = |x| {
                     let (distance, direction) = self.part.part().distance_before_rounding(x);
@@ -214,8 +215,9 @@ impl HuggingField {
     }
 }
 
-/// The scalar `outside_hull` of eight points: the highest plane of each is found eight points at a time.
-fn outside_hull_wide(x: WideVec, hull: &ConvexHull) -> WideVec {
+/// The scalar `outside_hull` of eight points: the highest plane of each is found eight points at a time, and the nearest point
+/// of those that are within `reach` and have a `patch` weight.
+fn outside_hull_wide(x: WideVec, hull: &ConvexHull, patch: f32x8, reach: f32) -> WideVec {
     let mut highest = f32x8::splat(f32::NEG_INFINITY);
     let mut first = f32x8::ZERO;
     for (i, &(normal, offset)) in hull.planes().iter().enumerate() {
@@ -229,10 +231,16 @@ fn outside_hull_wide(x: WideVec, hull: &ConvexHull) -> WideVec {
         return WideVec::ZERO;
     }
     let points = x.to_lanes();
-    let first = first.to_array();
-    let outside = |lane: usize| match highest[lane] > hull.rounding_error() {
-        true => points[lane] - hull.nearest_from(points[lane], first[lane] as usize),
-        false => Vec3::ZERO,
+    let (first, patch) = (first.to_array(), patch.to_array());
+    let outside = |lane: usize| {
+        if highest[lane] <= hull.rounding_error() {
+            Vec3::ZERO
+        } else if highest[lane] >= reach || patch[lane] <= 0.0 {
+            // No point of the hull is nearer than its plane.
+            Vec3::Y * (2.0 * reach)
+        } else {
+            points[lane] - hull.nearest_from(points[lane], first[lane] as usize)
+        }
     };
     WideVec::from_lanes(std::array::from_fn(outside))
 }

@@ -32,7 +32,7 @@ pub fn cancelled(case: &mut Case, settings: &CancelSettings, exact: bool) -> (Fi
     let change = |positions: &[Vec3]| (signed_volume(positions, triangles) / before - 1.0) as f32;
     let report = cancel(&mut case.body, &case.parts, &case.near, case.size, settings);
     let volume = change(case.body.positions());
-    let folded = count_folds(&case.body, twin.positions(), case.size);
+    let folded = count_folds(&case.body, twin.positions(), case.size, TURNED);
     let mut drift = 0.0;
     if exact {
         for pass in &case.body.palette().passes {
@@ -53,6 +53,9 @@ pub fn cancelled(case: &mut Case, settings: &CancelSettings, exact: bool) -> (Fi
 
 /// With this many times the steps a flow counts as exact: the midpoint rule is then 64 times as exact.
 const EXACT: u32 = 8;
+
+/// Triangles that turned by more than 60 degrees are looked at for folds.
+const TURNED: f32 = 0.5;
 
 /// What is asserted of every pose.
 #[derive(Clone, Copy, Debug)]
