@@ -4,6 +4,7 @@
 use super::attempt::attempt;
 use super::contact::Proximity;
 use super::folds::count_folds;
+use super::measure::widest_held_gap;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, find_contacts};
 use super::strength::Way;
@@ -98,12 +99,13 @@ pub fn cancel(
             return report;
         }
         report.way = way;
-        let grade = Grade::of(&report, body, &start, size, settings);
+        let grade = Grade::of(&report, (&*body, parts), &start, size, settings);
         let good = grade.open <= 0.0 && grade.folds == 0;
         if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
             best = Some((grade, report, body.collision_state()));
         }
-        if good {
+        let fine = best.as_ref().is_some_and(|(least, ..)| least.open <= 0.0);
+        if good || fine && softer > 1.0 {
             break;
         }
         body.resume(&start);
@@ -127,13 +129,19 @@ struct Grade {
 impl Grade {
     fn of(
         report: &CancelReport,
-        body: &ElasticBody,
+        (body, parts): (&ElasticBody, &[ObstaclePart]),
         start: &CollisionState,
         size: f32,
         settings: &CancelSettings,
     ) -> Self {
         let depth = report.left / (settings.depth_tolerance * size);
-        let open = depth.max(report.gap / (settings.gap_tolerance * size));
+        let gap_of = |gap: f32| gap / (settings.gap_tolerance * size);
+        let mut gap = gap_of(report.gap);
+        if gap > WORTH_CLOSING {
+            // Between the vertices the skin may touch.
+            gap = gap.min(gap_of(widest_held_gap(body, parts, size, report)));
+        }
+        let open = depth.max(gap);
         Self {
             open: if open <= WORTH_CLOSING { 0.0 } else { open },
             folds: count_folds(body, start.positions(), size, TURNED),
@@ -146,7 +154,7 @@ impl Grade {
 const TURNED: f32 = 0.0;
 
 /// Ways to go about it, in the order in which they are tried: how many times softer than the rig says, and the stride.
-const WAYS: [(f32, f32); 5] = [(1.0, 0.12), (0.6, 0.12), (1.0, 0.06), (1.6, 0.12), (0.4, 0.08)];
+const WAYS: [(f32, f32); 5] = [(1.0, 0.12), (1.6, 0.12), (2.5, 0.12), (1.0, 0.06), (0.6, 0.12)];
 
 impl CancelReport {
     /// Notes that a contact's own field pushes.
@@ -184,4 +192,4 @@ const LEAST_SOFTNESS: f32 = 0.05;
 const MOST_SOFTNESS: f32 = 10.0;
 
 /// From this many tolerances on what is left over is worth another way, and gaps are worth closing.
-pub(super) const WORTH_CLOSING: f32 = 2.0;
+pub(super) const WORTH_CLOSING: f32 = 2.2;

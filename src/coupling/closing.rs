@@ -73,4 +73,4 @@ fn left_over(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tol
 }
 
 /// Most passes that close gaps.
-const CLOSING_PASSES: u32 = 2;
+const CLOSING_PASSES: u32 = 5;

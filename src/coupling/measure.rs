@@ -103,6 +103,12 @@ fn deepest_triangle(body: &ElasticBody, parts: &[ObstaclePart], least: f32) -> f
     body.rig().mesh.triangles.par_iter().with_min_len(256).map(triangle).reduce(|| 0.0, f32::max)
 }
 
+/// The largest distance in metres that is left at a contact that is pushed by a field of its own.
+pub(super) fn widest_held_gap(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> f32 {
+    let gaps = gaps(body, parts, size, report);
+    report.contacts.iter().zip(&gaps).filter(|(contact, _)| contact.held).map(|(_, gap)| *gap).fold(0.0, f32::max)
+}
+
 /// How far the skin of each contact is from its obstacles now.
 ///
 /// The parts of one obstacle count together: they overlap, and what leaves one of them may have to stop at the next.
