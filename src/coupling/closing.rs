@@ -3,6 +3,7 @@
 use super::attempt::GUARD_HEIGHT;
 use super::cancel::{CancelReport, CancelSettings, WORTH_CLOSING};
 use super::contact::Proximity;
+use super::measure::widest_held_gap;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, add_guards, add_piercings, find_contacts, find_guards, find_piercings};
 use super::strength::{Way, solve_pass};
@@ -24,7 +25,8 @@ pub(super) fn close_gaps(
             report.contacts.iter().filter_map(|contact| contact.watched(body, parts)).collect();
         let pulled = watched.iter().filter(|(contact, gap)| *gap > close && contact.pushed > 0.0);
         let widest = pulled.map(|(_, gap)| *gap).fold(0.0, f32::max);
-        if widest <= 0.0 {
+        // Between the vertices the skin may touch.
+        if widest <= 0.0 || widest_held_gap(body, parts, size, report) <= close {
             return;
         }
         let mut all: Vec<Contact> = watched.into_iter().map(|(contact, _)| contact).collect();
