@@ -15,6 +15,8 @@ pub struct Proximity {
     pub normal: Vec3,
     /// The point of the segment's axis that is nearest to the part.
     pub axis_point: Vec3,
+    /// True where the part led a group of contacts in the step before: it leads it again unless another is much deeper.
+    pub leads: bool,
 }
 
 /// The direction from a part to a segment's axis, and the nearest point of the axis.

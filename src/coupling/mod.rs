@@ -51,4 +51,4 @@ pub use foundation::{
 pub use measure::{INSIDE, PIERCED, PIERCING_RESOLUTION, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;
-pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities};
+pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities, remember_leaders};

@@ -202,16 +202,33 @@ pub(super) const PIERCED: f32 = 2.0;
 /// Contacts of one segment with parts that touch each other count as one where they push nearly the same way: the fields
 /// of a hundred small parts side by side would only push against each other.
 fn merged(body: &ElasticBody, parts: &[ObstaclePart], mut contacts: Vec<Contact>) -> Vec<Contact> {
-    contacts.sort_by(|a, b| b.depth().total_cmp(&a.depth()).then(a.near.part.cmp(&b.near.part)));
-    let mut groups: Vec<Contact> = Vec::new();
+    // Those that led a group in the step before lead it again: groups that change from step to step would be seen.
+    let rank = |contact: &Contact| if contact.near.leads { LOYALTY * contact.depth() } else { contact.depth() };
+    contacts.sort_by(|a, b| rank(b).total_cmp(&rank(a)).then(a.near.part.cmp(&b.near.part)));
+    let mut groups: Vec<Vec<Contact>> = Vec::new();
     for contact in contacts {
-        match groups.iter_mut().find(|group| group.goes_with(&contact, parts)) {
-            Some(group) => group.absorb(body, parts, &contact),
-            None => groups.push(contact),
+        match groups
+            .iter_mut()
+            .find(|group| group.iter().any(|member| member.touches(&contact, parts)) && group[0].along(&contact))
+        {
+            Some(group) => group.push(contact),
+            None => groups.push(vec![contact]),
         }
     }
-    groups.into_iter().map(|group| Contact::new(body, group.near, group.points)).collect()
+    groups.iter().map(|group| joined(body, parts, group)).collect()
 }
+
+/// One contact of several; the first leads. The way out is the mean of all, the deeper ones counting more.
+fn joined(body: &ElasticBody, parts: &[ObstaclePart], group: &[Contact]) -> Contact {
+    let mean: Vec3 = group.iter().map(|contact| contact.near.normal * contact.depth()).sum();
+    let near = Proximity { normal: mean.normalize_or(group[0].near.normal), ..group[0].near };
+    let mut whole = Contact { near, points: Vec::new(), ..group[0].clone() };
+    group.iter().for_each(|member| whole.absorb(body, parts, member));
+    Contact::new(body, near, whole.points)
+}
+
+/// How many times deeper another part must be to lead a group in the place of the one that led it before.
+const LOYALTY: f32 = 1.5;
 
 /// Skin of a cancelled contact is watched that is farther off than the nearest by at most this part of the size.
 const WATCHED: f32 = 0.03;
@@ -317,9 +334,17 @@ impl Contact {
 
     /// True where another contact of the segment, with a part that touches one of this one's, pushes nearly the same way.
     fn goes_with(&self, other: &Contact, parts: &[ObstaclePart]) -> bool {
-        self.near.segment == other.near.segment
-            && self.near.normal.dot(other.near.normal) > SAME_WAY
-            && self.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[other.near.part].aabb))
+        self.along(other) && self.touches(other, parts)
+    }
+
+    /// True where another contact of the segment pushes nearly the same way.
+    fn along(&self, other: &Contact) -> bool {
+        self.near.segment == other.near.segment && self.near.normal.dot(other.near.normal) > SAME_WAY
+    }
+
+    /// True where a part of this contact touches the other's.
+    fn touches(&self, other: &Contact, parts: &[ObstaclePart]) -> bool {
+        self.parts().into_iter().any(|part| parts[part].aabb.intersects(&parts[other.near.part].aabb))
     }
 
     /// Takes over the points of another contact, with their depths along this one's direction.

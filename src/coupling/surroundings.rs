@@ -11,6 +11,7 @@ use super::common_way::share_ways_out;
 use super::contact::{Proximity, moved_axis, way_out};
 use super::foundation::Approach;
 use super::obstacle::{ObstacleError, ObstaclePart, PartCache, PartId};
+use super::penetrations::Contact;
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
 
@@ -21,6 +22,8 @@ pub struct ContactMemory {
     pub normal: Vec3,
     /// How fast the contact began to close.
     pub approach: Approach,
+    /// True where the part leads a group of contacts.
+    pub leads: bool,
 }
 
 /// The memory of all contacts of a body.
@@ -90,9 +93,10 @@ pub fn proximities(
             else {
                 continue;
             };
-            let fresh = ContactMemory { normal, approach: Approach::default() };
+            let fresh = ContactMemory { normal, approach: Approach::default(), leads: false };
             renewed.insert(key, memory.map_or(fresh, |memory| ContactMemory { normal, ..*memory }));
-            near.push(Proximity { segment: key.0, part: index, normal, axis_point });
+            let leads = memory.is_some_and(|memory| memory.leads);
+            near.push(Proximity { segment: key.0, part: index, normal, axis_point, leads });
         }
     }
     share_ways_out(body, parts, &mut near);
@@ -103,6 +107,17 @@ pub fn proximities(
     }
     *memories = renewed;
     near
+}
+
+/// Notes which parts lead groups of contacts.
+pub fn remember_leaders(contacts: &[Contact], parts: &[ObstaclePart], memories: &mut ContactMemories) {
+    memories.values_mut().for_each(|memory| memory.leads = false);
+    for near in contacts.iter().map(|contact| &contact.near) {
+        let memory = parts.get(near.part).and_then(|part| memories.get_mut(&(near.segment, part.id)));
+        if let Some(memory) = memory {
+            memory.leads = true;
+        }
+    }
 }
 
 /// The last resort for a segment that appears inside a part: away from the middle of the part.

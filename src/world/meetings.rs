@@ -123,7 +123,13 @@ impl DeformationWorld {
                 let encounter = &mut encounters[at.body];
                 let normal = if first { pair.normal } else { -pair.normal };
                 let (part_index, axis_point) = (encounter.parts.len(), pair.axis_points[side]);
-                encounter.near.push(Proximity { segment: at.segment as u16, part: part_index, normal, axis_point });
+                encounter.near.push(Proximity {
+                    segment: at.segment as u16,
+                    part: part_index,
+                    normal,
+                    axis_point,
+                    leads: false,
+                });
                 encounter.parts.push(part);
             }
         }

@@ -15,7 +15,8 @@ use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
     CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, measure,
-    obstacles_near, proximities, push_back, remember_pair_contacts, remember_skin_contacts, skin_contacts,
+    obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts, remember_skin_contacts,
+    skin_contacts,
 };
 use crate::math::{Pose, Vec3};
 
@@ -229,6 +230,7 @@ fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSet
         let report = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, &settings);
         if encounter.cancelled.contacts.is_empty() {
             entry.way = report.way;
+            remember_leaders(&report.contacts, &encounter.parts, &mut entry.memories);
         }
         encounter.cancelled.passes += report.passes;
         encounter.cancelled.left = report.left;
