@@ -25,7 +25,7 @@ pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
 pub use folds::count_folds;
-pub use gauge::gauge_point;
+pub use gauge::{Bar, gauge_point};
 pub use magnitude::complementarity;
 pub use obstacle::{
     DEFAULT_THICKNESS, LocalPart, ObstacleError, ObstaclePart, OuterFace, PartCache, PartId, PartSource, convex_parts,

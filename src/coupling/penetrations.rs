@@ -257,6 +257,12 @@ impl Contact {
         self.points.first().map_or(0.0, |p| p.depth.max(0.0))
     }
 
+    /// 1 for skin that is in the part or touches it, falling to 0 for a guard's at its height above it.
+    pub fn closeness(&self) -> f32 {
+        let gap = self.points.first().map_or(0.0, |p| -p.depth).max(0.0);
+        if self.guards > 0.0 { (1.0 - gap / self.guards).max(0.0) } else { 1.0 }
+    }
+
     /// The deepest point by the shortest way out, in metres.
     pub fn shortest_depth(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> f32 {
         let depth = |p: &Penetration| parts[p.part].way_to_surface(p.point.position(body.positions())).length();

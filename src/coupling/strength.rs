@@ -4,7 +4,7 @@ use rapier3d::parry::bounding_volume::BoundingVolume;
 
 use super::cancel::CancelSettings;
 use super::contact::Proximity;
-use super::gauge::{gauge_point, spread_between};
+use super::gauge::{Bar, gauge_point, spread_between};
 use super::magnitude::complementarity;
 use super::obstacle::ObstaclePart;
 use super::penetrations::Contact;
@@ -151,10 +151,10 @@ fn place_fields(
     let field = |(j, contact): (usize, &Contact)| {
         let others = || {
             let others = contacts.iter().enumerate().filter(|&(i, _)| i != j);
-            others.map(|(_, other)| (other.centre, other.near.normal))
+            others.map(|(_, other)| Bar { point: other.centre, normal: other.near.normal, weight: other.closeness() })
         };
         let gauge = gauge_point(contact.centre, others(), body.skins()[usize::from(contact.near.segment)].size);
-        let spread = spread_between(contact.near.normal, others().map(|(_, normal)| normal));
+        let spread = spread_between(contact.near.normal, others());
         let skin = &body.skins()[usize::from(contact.near.segment)];
         let width = softness * skin.size * if contact.pierced { NARROW } else { 1.0 };
         let beside = width + contact.radius;
