@@ -142,6 +142,11 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelRe
 /// Cosine from which on two contacts with one part push the same way.
 const ROUGHLY: f32 = 0.5;
 
+/// Distance of a point from a box, 0 inside.
+fn from_box(bounds: &Aabb, x: Vec3) -> f32 {
+    (bounds.mins - x).max(x - bounds.maxs).max(Vec3::ZERO).length()
+}
+
 /// True where two contacts are beside each other.
 fn overlap(a: &Contact, b: &Contact) -> bool {
     a.centre.distance(b.centre) <= a.radius + b.radius
@@ -158,19 +163,23 @@ fn contact_gap(
     close: f32,
 ) -> f32 {
     let positions = body.positions();
-    let exact = |x: Vec3| obstacle.iter().map(|part| part.exact_distance(x)).fold(f32::INFINITY, f32::min);
+    let own: BTreeSet<usize> = contact.parts();
+    let own: Vec<&ObstaclePart> = own.into_iter().map(|part| &parts[part]).collect();
     let mut best = f32::INFINITY;
-    for p in &contact.points {
-        best = best.min(exact(p.point.position(positions)));
-        if best <= close {
-            return 0.0;
-        }
-    }
     let beside = contact.beside(body, parts);
-    for p in &beside {
-        best = best.min(exact(p.point.position(positions)));
-        if best <= close {
-            return 0.0;
+    // The contact's own parts are the likeliest ones.
+    for among in [&own[..], obstacle] {
+        for p in contact.points.iter().chain(&beside) {
+            let x = p.point.position(positions);
+            for part in among {
+                // Most parts of a large obstacle are far off.
+                if from_box(&part.aabb, x) < best {
+                    best = best.min(part.exact_distance(x));
+                }
+            }
+            if best <= close {
+                return 0.0;
+            }
         }
     }
     let all = contact.points.iter().chain(&beside);
@@ -182,7 +191,8 @@ fn contact_gap(
         let longest = corners[0].distance(corners[1]).max(corners[1].distance(corners[2]));
         for part in obstacle {
             // No point of the triangle is nearer than a corner by more than its longest edges.
-            if part.placed.distance(corners[1]).0 - longest < best {
+            let near = from_box(&part.aabb, corners[1]) - longest < best;
+            if near && part.placed.distance(corners[1]).0 - longest < best {
                 best = best.min(deepest_on_triangle(&part.placed, corners).1.max(0.0));
             }
         }
