@@ -469,4 +469,4 @@ fn find_pierced(
 }
 
 /// Edges are taken for at most this many times as long as at rest.
-const STRETCHED: f32 = 2.0;
+pub(super) const STRETCHED: f32 = 2.0;

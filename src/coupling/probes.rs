@@ -1,9 +1,10 @@
 //! The points of the skin on which strengths are solved: a few at first, and those that the few left inside.
 
+use rapier3d::parry::bounding_volume::BoundingVolume;
 use rayon::prelude::*;
 
 use super::obstacle::ObstaclePart;
-use super::penetrations::{ASKEW, Contact, PIERCED, Penetration};
+use super::penetrations::{ASKEW, Contact, PIERCED, Penetration, STRETCHED};
 use super::piercing::{Height, pierced};
 use super::skin_point::{SkinPoint, flow_all};
 use crate::elastic::{CollisionPass, ElasticBody};
@@ -65,8 +66,7 @@ impl Probes {
     ) -> bool {
         let lists: Vec<&[Penetration]> = contacts.iter().map(|contact| contact.points.as_slice()).collect();
         let all = ends(body, pass, contacts, &lists, parts);
-        let mut any = false;
-        for (i, (contact, outcomes)) in contacts.iter().zip(all).enumerate() {
+        let missed = |(i, (contact, outcomes)): (usize, (&Contact, Vec<Outcome>))| {
             let ends = outcomes.into_iter().zip(contact.points.iter().copied());
             let mut inside: Vec<_> = ends.filter(|(outcome, _)| outcome.gap < aim[i] - tolerance).collect();
             if inside.is_empty() {
@@ -75,9 +75,15 @@ impl Probes {
             }
             inside.sort_by(|(a, _), (b, _)| a.gap.total_cmp(&b.gap).then(a.point.vertices.cmp(&b.point.vertices)));
             inside.truncate(PROBES_SPREAD);
-            for (_, missed) in inside {
-                if !self.points[i].contains(&missed) {
-                    self.points[i].push(missed);
+            inside
+        };
+        let missed: Vec<Vec<(Outcome, Penetration)>> =
+            contacts.par_iter().zip(all).enumerate().map(missed).collect();
+        let mut any = false;
+        for (points, missed) in self.points.iter_mut().zip(missed) {
+            for (_, missed) in missed {
+                if !points.contains(&missed) {
+                    points.push(missed);
                     any = true;
                 }
             }
@@ -90,16 +96,19 @@ impl Probes {
 struct SkinPatch {
     triangles: Vec<[u32; 3]>,
     vertices: Vec<SkinPoint>,
+    /// No corner of a triangle that is pierced is farther from the part.
+    margin: f32,
 }
 
 impl SkinPatch {
     /// None for a guard.
     fn of(body: &ElasticBody, contact: &Contact) -> Self {
-        let mut patch = Self { triangles: Vec::new(), vertices: Vec::new() };
+        let skin = &body.skins()[usize::from(contact.near.segment)];
+        let margin = STRETCHED * skin.longest_edge;
+        let mut patch = Self { triangles: Vec::new(), vertices: Vec::new(), margin };
         if contact.depth() <= 0.0 {
             return patch;
         }
-        let skin = &body.skins()[usize::from(contact.near.segment)];
         let reach = contact.radius + contact.depth() + skin.longest_edge;
         let near = |&v: &u32| body.positions()[v as usize].distance_squared(contact.centre) < reach * reach;
         let corners = skin.triangles.iter().map(|&t| body.rig().mesh.triangles[t as usize]);
@@ -125,10 +134,16 @@ impl SkinPatch {
         let mut found = Vec::new();
         for part in contact.parts() {
             let placed = &parts[part].placed;
-            let heights: Vec<Height> = carried.iter().map(|&x| placed.signed_distance(x)).collect();
+            let around = parts[part].aabb.loosened(self.margin);
+            let height = |&x: &Vec3| around.contains_local_point(x).then(|| placed.signed_distance(x));
+            let heights: Vec<Option<Height>> = carried.iter().map(height).collect();
+            if heights.iter().flatten().all(|height| height.0 > self.margin) {
+                continue;
+            }
             for &vertices in &self.triangles {
                 let at = vertices.map(place);
-                let (corners, ends) = (at.map(|i| carried[i]), at.map(|i| heights[i]));
+                let [Some(a), Some(b), Some(c)] = at.map(|i| heights[i]) else { continue };
+                let (corners, ends) = (at.map(|i| carried[i]), [a, b, c]);
                 let Some((point, depth)) = pierced(placed, vertices, corners, ends, tolerance) else { continue };
                 let x = point.position_of(corners);
                 let along = parts[part].exit(x, contact.near.normal, ASKEW * depth);
