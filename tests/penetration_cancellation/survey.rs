@@ -90,7 +90,9 @@ impl Survey {
     pub fn exceeds(&self, (bad, many): (f32, f32)) -> bool {
         let count = self.figures.len() as f32;
         let passes = self.figures.iter().filter(|(_, figures)| figures.passes > 4).count();
-        self.bad as f32 > bad * count || passes as f32 > many * count
+        // At least one pose, where a share is open at all.
+        let most = |share: f32| if share > 0.0 { (share * count).max(1.0) } else { 0.0 };
+        self.bad as f32 > most(bad) || passes as f32 > most(many)
     }
 
     /// The cells of a table: share of poses in which all holds, worst depth, piercing, gap and change of volume in
