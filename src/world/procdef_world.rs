@@ -209,6 +209,11 @@ impl ProcDefWorld {
     }
 
     /// The grip on a body.
+    pub fn grip(&self, handle: ProcDefHandle) -> Option<&Grip> {
+        self.entries.get(handle.0)?.grip.as_ref()
+    }
+
+    /// The grip on a body, to lead it.
     pub fn grip_mut(&mut self, handle: ProcDefHandle) -> Option<&mut Grip> {
         self.entries.get_mut(handle.0)?.grip.as_mut()
     }

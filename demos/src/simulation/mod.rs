@@ -8,11 +8,15 @@ mod ring;
 mod running;
 mod scripted;
 mod shape;
+mod soft;
+mod soft_hand;
 mod shown_part;
 
 pub use build::BuildError;
 pub use grab::{Hit, Take};
 pub use obstacle::ObstacleBody;
 pub use ring::ring_surface;
+pub use soft::{AttachedThing, SoftActor, SoftKind};
+pub use soft_hand::SoftHit;
 pub use running::{Actor, Simulation};
 pub use shown_part::ShownPart;

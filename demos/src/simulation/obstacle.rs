@@ -35,6 +35,8 @@ impl ObstacleBody {
         let builder = match obstacle.dynamic {
             Some(dynamic) => {
                 RigidBodyBuilder::dynamic().linvel(dynamic.velocity).angvel(dynamic.angular_velocity).ccd_enabled(true)
+                    .linear_damping(dynamic.linear_damping)
+                    .angular_damping(dynamic.angular_damping)
             }
             None if obstacle.is_moving() => RigidBodyBuilder::kinematic_position_based(),
             None => RigidBodyBuilder::fixed(),
