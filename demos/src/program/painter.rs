@@ -13,7 +13,9 @@ use super::looks;
 use super::memory_skin::MemorySkin;
 use super::moment::Moment;
 use super::overlays::{self, Shown};
+use super::soft_painter::SoftPainter;
 use super::surfaces;
+use super::water;
 use crate::render::{Frame, Ground, Item, Material, MeshId, Region, Renderer};
 use crate::simulation::Simulation;
 
@@ -28,6 +30,7 @@ pub struct Painter {
     passes: Option<Passes>,
     trouble: Option<String>,
     skins: Vec<Option<(Skin, Arc<ElasticRig>)>>,
+    soft: SoftPainter,
     obstacles: Vec<Option<(MeshId, Material)>>,
     ground: Option<Ground>,
     region: Region,
@@ -55,6 +58,7 @@ impl Painter {
             passes: compute.then(|| Passes::new(renderer.device())),
             trouble: None,
             skins: Vec::new(),
+            soft: SoftPainter::new(renderer, simulation, None),
             obstacles,
             region: looks::region(simulation, ground.as_ref()),
             ground,
@@ -113,16 +117,23 @@ impl Painter {
                 items.push(Item { casts_shadow: material.alpha >= FAINTEST_CASTER, ..item });
             }
         }
-        Frame {
+        let mut overlay = overlays::overlay(simulation, &self.shown, moments, alpha);
+        let soft = moments.map(|moment| &moment.soft[..]);
+        items.extend(self.soft.items(renderer, simulation, soft, alpha, (&self.shown, &mut overlay)));
+        let mut frame = Frame {
             camera: looks::camera(&simulation.scene.camera),
             sun: looks::sun(&simulation.scene.camera),
             ground: self.ground,
             region: self.region,
             items,
-            overlay: overlays::overlay(simulation, &self.shown, moments, alpha),
+            overlay,
             fog: looks::fog(&simulation.scene, &self.region),
             ..Frame::default()
+        };
+        if water::is_diving(&simulation.scene) {
+            water::dive(&mut frame);
         }
+        frame
     }
 
     /// Brings a body's mesh up to date. A device that refuses gets vertices from memory from then on.

@@ -52,13 +52,15 @@ impl Pictures {
         }
         let watch = Watch::over(&gpu.device);
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, args.size);
-        let painter = Painter::new(&mut renderer, simulation, !args.cpu);
+        let mut painter = Painter::new(&mut renderer, simulation, !args.cpu);
         if let Some(trouble) = painter.trouble() {
             tell(&format!("the processor deforms the pictures' vertices: {trouble}"));
         }
+        painter.shown.field = args.show;
+        painter.shown.cut = args.cut;
         let target = Picture::new(&gpu.device, args.size);
         let every = (!args.no_pictures).then_some(every);
-        let strip = args.strip.map(|count| Strip::new(count, frames, args.size));
+        let strip = args.strip.map(|count| Strip::new(count, args.strip_rows, frames, args.size));
         Ok(Self { renderer, target, painter, folder: folder.into(), size: args.size, every, strip, watch })
     }
 

@@ -51,7 +51,7 @@ impl Player {
             moments: [now.clone(), now],
             painter: None,
             compute: !run.cpu,
-            shown: Shown::default(),
+            shown: Shown { field: run.show, cut: run.cut, ..Shown::default() },
             trouble: None,
             pulls_skin: false,
             reach: FIRST_REACH,

@@ -176,6 +176,12 @@ fn attach(
 }
 
 impl Simulation {
+    /// Where the rigid things of a body are, in the order of its kind; none for one that rapier does not have.
+    pub fn thing_poses(&self, actor: &SoftActor) -> Vec<Option<Pose>> {
+        let things = self.creatures.link(actor.handle).map(|link| &link.attachments[..]).unwrap_or_default();
+        things.iter().map(|thing| self.physics.bodies.get((*thing)?).map(|body| *body.position())).collect()
+    }
+
     /// The cues that are due before the time `next`, each once: at the end of the substep in which its time lies.
     pub(super) fn follow_cues(&mut self, next: f32) {
         let before = next - self.physics.integration_parameters.dt;
