@@ -196,7 +196,8 @@ mod tests {
     fn a_cut_body_encloses_what_is_left_of_it_and_faces_outward() {
         let mesh = block();
         let boundary = mesh.boundary();
-        let cuts = [(0, 0.7, 5.0, 0.7), (0, 0.7, -5.0, 1.3), (1, 0.25, 5.0, 0.5), (2, 0.5, -5.0, 1.0), (0, 9.0, 10.0, 2.0)];
+        let cuts =
+            [(0, 0.7, 5.0, 0.7), (0, 0.7, -5.0, 1.3), (1, 0.25, 5.0, 0.5), (2, 0.5, -5.0, 1.0), (0, 9.0, 10.0, 2.0)];
         for (axis, at, eye, volume) in cuts {
             let section = Section::new(&mesh, &boundary, Cut { axis, at }, Vec3::splat(eye)).unwrap();
             let (mut positions, mut normals) = (Vec::new(), Vec::new());

@@ -37,9 +37,9 @@ impl SoftPainter {
         let mut meshes: Vec<(Arc<SoftKind>, Vec<(MeshId, Material)>)> = Vec::new();
         for (actor, body) in simulation.soft_actors.iter().zip(&simulation.scene.soft_bodies) {
             let known = looks.iter().find(|(kind, _)| cut.is_none() && Arc::ptr_eq(kind, &actor.kind));
-            let look = known.map(|(_, look)| look.clone()).unwrap_or_else(|| {
-                Arc::new(SoftLook::new(&actor.kind, cut, &body.pose, simulation.scene.camera.eye))
-            });
+            let look = known
+                .map(|(_, look)| look.clone())
+                .unwrap_or_else(|| Arc::new(SoftLook::new(&actor.kind, cut, &body.pose, simulation.scene.camera.eye)));
             skins.push(SoftSkin::new(renderer, &look));
             looks.push((actor.kind.clone(), look));
             let known = meshes.iter().find(|(kind, _)| Arc::ptr_eq(kind, &actor.kind)).map(|(_, known)| known.clone());

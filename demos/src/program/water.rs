@@ -35,14 +35,17 @@ pub fn material() -> Material {
 /// Takes a picture under water: light from above, blue around, dark below, and nothing seen far away.
 pub fn dive(frame: &mut Frame) {
     frame.sky = Sky {
-        zenith: Vec3::new(0.62, 1.55, 1.95),
-        horizon: Vec3::new(0.065, 0.33, 0.55),
-        bounce: Vec3::new(0.03, 0.13, 0.24),
-        fill: 0.85,
+        zenith: Vec3::new(0.50, 1.45, 1.75),
+        horizon: Vec3::new(0.022, 0.19, 0.36),
+        bounce: Vec3::new(0.003, 0.022, 0.055),
+        depth: 1.0,
+        fill: 1.1,
     };
     let direction = 0.35 * frame.sun.direction + 1.2 * Vec3::Y;
-    frame.sun = Sun { direction, colour: Vec3::new(3.2, 4.3, 4.5), softness: 0.08 };
+    frame.sun = Sun { direction, colour: Vec3::new(4.4, 4.1, 3.9), softness: 0.08 };
     frame.ground = frame.ground.map(|ground| Ground { colour: ground.colour * Vec3::new(0.75, 0.8, 0.7), ..ground });
+    // Light comes from all sides: nothing is dark in its corners.
+    frame.occlusion_radius = 0.0;
     let reach = frame.camera.eye.distance(frame.region.centre);
     frame.fog = [0.55 * reach, 1.6 * reach];
 }

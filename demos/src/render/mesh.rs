@@ -162,7 +162,14 @@ impl Meshes {
     }
 
     /// Writes vertices and their paint anew; there must not be more of them than the mesh has.
-    pub fn write_painted(&self, queue: &wgpu::Queue, id: MeshId, positions: &[Vec3], normals: &[Vec3], paint: &[Paint]) {
+    pub fn write_painted(
+        &self,
+        queue: &wgpu::Queue,
+        id: MeshId,
+        positions: &[Vec3],
+        normals: &[Vec3],
+        paint: &[Paint],
+    ) {
         let Some(mesh) = self.get(id) else { return };
         let raw: Vec<[f32; 4]> = positions.iter().map(|p| p.extend(1.0).to_array()).collect();
         fill(queue, &mesh.positions, bytemuck::cast_slice(&raw));

@@ -8,7 +8,8 @@ use super::shape_types::ObstacleShape;
 use super::soft::{self, Groups};
 use super::soft_types::SoftBody;
 use super::types::{
-    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, MAX_SUBSTEPS, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene, Spin,
+    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, MAX_SUBSTEPS, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene,
+    Spin,
 };
 use pliant::elastic::{TomlError, TomlText, did_you_mean};
 use pliant::math::Vec3;

@@ -92,7 +92,8 @@ impl Simulation {
             self.grab = self.hold_soft(&hit).map(|hold| Grab { hold, distance: hit.distance, goal: hit.point });
             return self.grab.is_some();
         }
-        let held = elastic.and_then(|hit| Some(Grab { hold: self.hold(&hit, take)?, distance: hit.distance, goal: hit.point }));
+        let held = elastic
+            .and_then(|hit| Some(Grab { hold: self.hold(&hit, take)?, distance: hit.distance, goal: hit.point }));
         self.grab = held;
         self.grab.is_some()
     }

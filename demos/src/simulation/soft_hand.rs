@@ -90,7 +90,8 @@ mod tests {
         assert_eq!(snail.touch(place + Vec3::Z * 4.0, Vec3::NEG_Z), Some(0));
         let motion = snail.creatures.motion(snail.soft_actors[0].handle).unwrap();
         assert_eq!(motion.stimuli().len(), 1);
-        let nearest = (0..500).filter_map(|v| motion.stimuli()[0].arrival(v)).map(|(delay, _)| delay).fold(9.0, f32::min);
+        let nearest =
+            (0..500).filter_map(|v| motion.stimuli()[0].arrival(v)).map(|(delay, _)| delay).fold(9.0, f32::min);
         assert!(nearest < 0.1, "it starts at once where it was touched: {nearest}");
     }
 }
