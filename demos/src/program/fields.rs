@@ -60,7 +60,7 @@ impl Field {
             Self::Excitation => {
                 // The blend with the material is the opacity; the root makes faint excitations visible. In full light the
                 // colours would be pale.
-                let full = 0.55 * Vec3::from(excitation_colour(value.signum(), [0.0; 3]));
+                let full = 0.7 * Vec3::from(excitation_colour(value.signum(), [0.0; 3]));
                 Paint::new(full, 0.94 * value.abs().min(1.0).powf(0.6))
             }
             Self::Layers if value < 0.5 => ramp(BLUE, PALE, 2.0 * value),

@@ -16,7 +16,7 @@ use super::overlays::{self, Shown};
 use super::soft_painter::SoftPainter;
 use super::surfaces;
 use super::water;
-use crate::render::{Frame, Ground, Item, Material, MeshId, Region, Renderer};
+use crate::render::{Camera, Frame, Ground, Item, Material, MeshId, Region, Renderer};
 use crate::simulation::Simulation;
 
 /// Colour of the edges of triangles.
@@ -92,13 +92,14 @@ impl Painter {
         made.ok().map(|skin| Skin::Memory(Box::new(skin)))
     }
 
-    /// The place `alpha` between two moments of a simulation; 1 is the later one.
+    /// The place `alpha` between two moments of a simulation, 1 is the later one, as `camera` sees it.
     pub fn frame(
         &mut self,
         renderer: &mut Renderer,
         simulation: &Simulation,
         moments: [&Moment; 2],
         alpha: f32,
+        camera: Camera,
     ) -> Frame {
         let mut items = Vec::new();
         for (index, actor) in simulation.actors.iter().enumerate() {
@@ -119,9 +120,9 @@ impl Painter {
         }
         let mut overlay = overlays::overlay(simulation, &self.shown, moments, alpha);
         let soft = moments.map(|moment| &moment.soft[..]);
-        items.extend(self.soft.items(renderer, simulation, soft, alpha, (&self.shown, &mut overlay)));
+        items.extend(self.soft.items(renderer, simulation, soft, alpha, (&camera, &self.shown, &mut overlay)));
         let mut frame = Frame {
-            camera: looks::camera(&simulation.scene.camera),
+            camera,
             sun: looks::sun(&simulation.scene.camera),
             ground: self.ground,
             region: self.region,
@@ -182,9 +183,9 @@ mod tests {
             let mut painter = Painter::new(&mut renderer, &simulation, compute);
             let target = Picture::new(&gpu.device, SIZE);
             [0.0, 0.3, 1.0].map(|alpha| {
-                let mut frame = painter.frame(&mut renderer, &simulation, [&moments[0], &moments[1]], alpha);
-                frame.camera.target = middle;
-                frame.camera.eye = middle + glam::Vec3::new(1.0, 0.5, 3.5);
+                let eye = middle + glam::Vec3::new(1.0, 0.5, 3.5);
+                let camera = Camera { eye, target: middle, ..looks::camera(&simulation.scene.camera) };
+                let frame = painter.frame(&mut renderer, &simulation, [&moments[0], &moments[1]], alpha, camera);
                 assert_eq!(painter.trouble(), None);
                 target.take(&mut renderer, &frame).unwrap()
             })

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 
 use super::args::RunArgs;
+use super::looks;
 use super::moment::Moment;
 use super::painter::Painter;
 use super::strip::Strip;
@@ -76,7 +77,8 @@ impl Pictures {
     /// Draws and writes a frame. What the device complains about is returned; nothing is written then.
     pub fn draw(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<Option<String>> {
         let now = Moment::of(simulation);
-        let described = self.painter.frame(&mut self.renderer, simulation, [&now, &now], 1.0);
+        let camera = looks::camera(&simulation.scene.camera);
+        let described = self.painter.frame(&mut self.renderer, simulation, [&now, &now], 1.0, camera);
         let taken = self.target.take(&mut self.renderer, &described);
         if let Some(complaint) = self.watch.complaint() {
             return Ok(Some(complaint));

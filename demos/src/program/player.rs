@@ -119,14 +119,14 @@ impl Stage for Player {
         looks::camera(&self.simulation.scene.camera)
     }
 
-    fn frame(&mut self, renderer: &mut Renderer, alpha: f32) -> Frame {
+    fn frame(&mut self, renderer: &mut Renderer, alpha: f32, camera: Camera) -> Frame {
         let painter = self.painter.get_or_insert_with(|| {
             renderer.clear_meshes();
             Painter::new(renderer, &self.simulation, self.compute)
         });
         painter.shown = self.shown;
         let [before, now] = &self.moments;
-        let frame = painter.frame(renderer, &self.simulation, [before, now], alpha);
+        let frame = painter.frame(renderer, &self.simulation, [before, now], alpha, camera);
         if let Some(trouble) = painter.trouble() {
             self.trouble = Some(trouble.into());
         }
@@ -144,6 +144,10 @@ impl Stage for Player {
 
     fn release(&mut self) {
         self.simulation.release();
+    }
+
+    fn touch(&mut self, origin: Vec3, direction: Vec3) {
+        self.simulation.touch(origin, direction);
     }
 
     fn panel(&mut self, panel: &mut egui::Ui) {

@@ -11,7 +11,7 @@ use super::overlays::Shown;
 use super::section::Cut;
 use super::soft_skin::{SoftLook, SoftSkin};
 use super::water;
-use crate::render::{Item, Material, MeshId, Overlay, Renderer};
+use crate::render::{Camera, Item, Material, MeshId, Overlay, Renderer};
 use crate::simulation::{Simulation, SoftKind};
 
 /// Colour of the edges of triangles.
@@ -58,7 +58,7 @@ impl SoftPainter {
         simulation: &Simulation,
         moments: [&[SoftMoment]; 2],
         alpha: f32,
-        (shown, overlay): (&Shown, &mut Overlay),
+        (camera, shown, overlay): (&Camera, &Shown, &mut Overlay),
     ) -> Vec<Item> {
         if shown.cut != self.cut {
             self.skins.iter().for_each(|skin| renderer.remove_mesh(skin.mesh()));
@@ -72,6 +72,9 @@ impl SoftPainter {
             };
             if let Some(mesh) = skin.show(renderer, [from, to], alpha, shown.field, overlay) {
                 let mut item = Item::new(mesh, Mat4::IDENTITY, looks::soft_body(actor));
+                if item.material.alpha < 1.0 {
+                    skin.sort(renderer, camera.eye);
+                }
                 item.wire = shown.wireframe.then_some(WIRE);
                 items.push(item);
             }

@@ -42,6 +42,7 @@ pub struct SoftSkin {
     deformed: DeformedSkin,
     values: Vec<f32>,
     paint: Vec<Paint>,
+    order: Vec<(f32, [u32; 3])>,
 }
 
 impl SoftLook {
@@ -133,12 +134,25 @@ impl SoftSkin {
             deformed: DeformedSkin::default(),
             values: Vec::new(),
             paint: Vec::new(),
+            order: Vec::new(),
         }
     }
 
     /// Its mesh on the device.
     pub fn mesh(&self) -> MeshId {
         self.mesh
+    }
+
+    /// Brings the triangles into the order in which they are seen from `eye`, the farthest first: a translucent body is
+    /// drawn in it.
+    pub fn sort(&mut self, renderer: &Renderer, eye: Vec3) {
+        let x = &self.deformed.positions;
+        let away = |t: &[u32; 3]| t.iter().map(|&v| x[v as usize]).sum::<Vec3>().distance_squared(3.0 * eye);
+        self.order.clear();
+        self.order.extend(self.look.triangles().iter().map(|t| (away(t), *t)));
+        self.order.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let sorted: Vec<[u32; 3]> = self.order.iter().map(|(_, t)| *t).collect();
+        renderer.write_indices(self.mesh, sorted.as_flattened());
     }
 
     /// Uploads the place `alpha` between two moments of the body, painted with a field, and returns its mesh. Directions

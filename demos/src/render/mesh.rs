@@ -136,7 +136,7 @@ impl Meshes {
         let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("indices"),
             contents: bytemuck::cast_slice(indices),
-            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE,
+            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
         });
         let wire = super::pipeline::group(
             device,
@@ -159,6 +159,12 @@ impl Meshes {
             let raw: Vec<[f32; 4]> = values.iter().map(|v| v.to_array()).collect();
             fill(queue, buffer, bytemuck::cast_slice(&raw));
         }
+    }
+
+    /// Writes the corners of triangles anew; there must not be more of them than the mesh has.
+    pub fn write_indices(&self, queue: &wgpu::Queue, id: MeshId, indices: &[u32]) {
+        let Some(mesh) = self.get(id) else { return };
+        fill(queue, &mesh.indices, bytemuck::cast_slice(indices));
     }
 
     /// Writes vertices and their paint anew; there must not be more of them than the mesh has.

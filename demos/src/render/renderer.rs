@@ -126,6 +126,11 @@ impl Renderer {
         self.meshes.write_painted(&self.queue, id, positions, normals, paint);
     }
 
+    /// Brings the triangles of a mesh into another order: translucent ones are drawn in it.
+    pub fn write_indices(&self, id: MeshId, indices: &[u32]) {
+        self.meshes.write_indices(&self.queue, id, indices);
+    }
+
     /// Forgets a mesh.
     pub fn remove_mesh(&mut self, id: MeshId) {
         self.meshes.remove(id);

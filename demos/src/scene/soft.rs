@@ -71,7 +71,7 @@ fn ground(at: &At, raw: GroundDescription) -> Result<GroundDescription, TomlErro
     Ok(raw)
 }
 
-/// The bodies of a crowd: columns along x and z about the first body's place, layer upon layer, every other layer shifted.
+/// The bodies of a crowd: columns along x and z about the first body's place, layer upon layer, one shifted ahead, the next back.
 fn crowd(at: &At, raw: &RawCrowd, first: &SoftBody) -> Result<Vec<SoftBody>, TomlError> {
     if !(1..=MOST).contains(&raw.count) {
         return Err(at.error("count", format!("must be from 1 to {MOST} and is {}", raw.count)));
@@ -88,7 +88,7 @@ fn crowd(at: &At, raw: &RawCrowd, first: &SoftBody) -> Result<Vec<SoftBody>, Tom
     let mut random = Random(u64::from(raw.count));
     let member = |i: u32| {
         let layer = i / (wide * deep);
-        let shift = if layer % 2 == 1 { 0.5 } else { 0.0 };
+        let shift = if layer % 2 == 1 { 0.25 } else { -0.25 };
         let middle = |columns: u32| 0.5 * (columns as f32 - 1.0);
         let place = Vec3::new(
             (i % wide) as f32 - middle(wide) + shift,
