@@ -3,6 +3,7 @@
 use glam::{Mat3, Vec3};
 use pliant::procdef::ProcDefModel;
 
+use super::section::Place;
 use crate::render::Overlay;
 use crate::render::overlay::Line;
 
@@ -16,12 +17,13 @@ const LIFT: f32 = 0.12;
 /// Width of the lines in pixels of a picture that is 540 pixels high.
 const WIDTH: f32 = 1.8;
 
+/// Opacity of lines behind a surface, relative to those before it.
+const HIDDEN: f32 = 0.05;
+
 /// What carries the directions of a kind of body along.
 pub struct Directions {
     /// For each vertex of the cells one cell around it, and the inverse of that cell's edges at rest.
     carriers: Vec<Option<([u32; 4], Mat3)>>,
-    /// The vertices of the boundary.
-    surface: Vec<bool>,
     edge: f32,
 }
 
@@ -40,27 +42,46 @@ impl Directions {
                 }
             }
         }
-        let mut surface = vec![false; mesh.vertex_count()];
-        model.boundary.as_flattened().iter().for_each(|&v| surface[v as usize] = true);
-        Self { carriers, surface, edge: model.boundary_edge() }
+        Self { carriers, edge: model.boundary_edge() }
     }
 
-    /// Adds the lines for these positions of the cells: of the boundary's vertices, or of all that `kept` marks.
-    pub fn draw(&self, model: &ProcDefModel, cells: &[Vec3], kept: Option<&[bool]>, overlay: &mut Overlay) {
+    /// Adds the lines at the vertices of the boundary, for these positions of the cells.
+    pub fn draw_boundary(&self, model: &ProcDefModel, cells: &[Vec3], overlay: &mut Overlay) {
         let normals = normals(&model.boundary, cells);
-        let frames = &model.motion.fields().orientation.frames;
-        for (v, (carrier, frame)) in self.carriers.iter().zip(frames).enumerate() {
-            let Some((cell, inverse)) = carrier else { continue };
-            if !kept.map_or(self.surface[v], |kept| kept[v]) {
-                continue;
-            }
-            let gradient = edges(cells, cell) * *inverse;
-            let place = cells[v] + normals[v] * (LIFT * self.edge);
-            for (direction, (colour, length)) in [frame.x_axis, frame.y_axis, frame.z_axis].into_iter().zip(LINES) {
-                let half = (gradient * direction).normalize_or_zero() * (0.5 * length * self.edge);
+        let vertices = (0u32..).zip(normals).filter(|(_, normal)| *normal != Vec3::ZERO);
+        self.draw(model, cells, vertices.map(|(v, normal)| ((v, v, 0.0), normal)), overlay);
+    }
+
+    /// Adds the lines at places on the edges of the cells, lifted along a normal each.
+    pub fn draw(
+        &self,
+        model: &ProcDefModel,
+        cells: &[Vec3],
+        sites: impl Iterator<Item = (Place, Vec3)>,
+        overlay: &mut Overlay,
+    ) {
+        overlay.hidden = HIDDEN;
+        for ((a, b, share), normal) in sites {
+            let [Some(first), Some(second)] = [a, b].map(|v| self.frame(model, cells, v)) else { continue };
+            let place = cells[a as usize].lerp(cells[b as usize], share) + normal * (LIFT * self.edge);
+            for (k, (colour, length)) in LINES.into_iter().enumerate() {
+                let (from, to) = (first.col(k), second.col(k));
+                let to = if from.dot(to) < 0.0 { -to } else { to };
+                let half = from.lerp(to, share).normalize_or_zero() * (0.5 * length * self.edge);
                 overlay.lines.push(Line { from: place - half, to: place + half, width: WIDTH, colour });
             }
         }
+    }
+
+    /// The directions at a vertex now, of unit length.
+    fn frame(&self, model: &ProcDefModel, cells: &[Vec3], vertex: u32) -> Option<Mat3> {
+        let (cell, inverse) = self.carriers[vertex as usize].as_ref()?;
+        let frame = edges(cells, cell) * *inverse * model.motion.fields().orientation.frames[vertex as usize];
+        Some(Mat3::from_cols(
+            frame.x_axis.normalize_or_zero(),
+            frame.y_axis.normalize_or_zero(),
+            frame.z_axis.normalize_or_zero(),
+        ))
     }
 }
 
@@ -85,7 +106,7 @@ mod tests {
     use crate::program::choose;
 
     #[test]
-    fn lines_turn_with_the_body_and_end_at_the_cut() {
+    fn lines_turn_with_the_body_and_lie_where_they_are_asked_for() {
         let simulation = choose::simulation("bending-bar", 0).unwrap();
         let model = &simulation.soft_actors[0].kind.model;
         let directions = Directions::new(model);
@@ -93,7 +114,7 @@ mod tests {
         let turned: Vec<Vec3> = rest.iter().map(|p| Vec3::new(-p.y, p.x, p.z)).collect();
         let [before, after] = [rest, &turned].map(|cells| {
             let mut overlay = Overlay::default();
-            directions.draw(model, cells, None, &mut overlay);
+            directions.draw_boundary(model, cells, &mut overlay);
             overlay.lines
         });
         let surface = model.rig.mesh().surface_vertices().len();
@@ -104,10 +125,11 @@ mod tests {
         }
         // The primary direction of the bar runs along it.
         assert!(before.iter().step_by(3).all(|line| (line.to - line.from).normalize().x.abs() > 0.9));
-        let kept: Vec<bool> = rest.iter().map(|p| p.x < 0.0).collect();
+        let [a, b, ..] = model.rig.mesh().cells[0];
         let mut overlay = Overlay::default();
-        directions.draw(model, rest, Some(&kept), &mut overlay);
-        assert_eq!(overlay.lines.len(), 3 * kept.iter().filter(|k| **k).count());
-        assert!(overlay.lines.iter().all(|line| line.from.min(line.to).x < 0.0));
+        directions.draw(model, rest, [((a, b, 0.25), Vec3::ZERO)].into_iter(), &mut overlay);
+        let place = rest[a as usize].lerp(rest[b as usize], 0.25);
+        assert_eq!(overlay.lines.len(), 3);
+        assert!(overlay.lines.iter().all(|line| (0.5 * (line.from + line.to)).distance(place) < 1e-5));
     }
 }

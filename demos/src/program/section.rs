@@ -31,7 +31,7 @@ impl FromStr for Cut {
 }
 
 /// A place on an edge between two vertices of the cells: the share of the way from the first to the second.
-type Place = (u32, u32, f32);
+pub type Place = (u32, u32, f32);
 
 /// A body cut open.
 #[derive(Clone, Debug)]
@@ -39,8 +39,6 @@ pub struct Section {
     places: Vec<Place>,
     triangles: Vec<[u32; 3]>,
     topology: NormalTopology,
-    /// Which vertices of the cells are left.
-    pub kept: Vec<bool>,
 }
 
 impl Section {
@@ -62,7 +60,7 @@ impl Section {
         places.extend(inside.places);
         let welded: Vec<u32> = (0..places.len() as u32).collect();
         let topology = NormalTopology::new(&triangles, &welded)?;
-        Ok(Self { places, triangles, topology, kept: height.iter().map(|h| *h < 0.0).collect() })
+        Ok(Self { places, triangles, topology })
     }
 
     /// Corners of the triangles, counter-clockwise seen from outside.
@@ -70,9 +68,9 @@ impl Section {
         &self.triangles
     }
 
-    /// Number of vertices.
-    pub fn vertex_count(&self) -> usize {
-        self.places.len()
+    /// Where its vertices lie on the edges of the cells.
+    pub fn places(&self) -> &[Place] {
+        &self.places
     }
 
     /// Positions and normals for these positions of the cells' vertices.

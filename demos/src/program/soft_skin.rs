@@ -76,7 +76,7 @@ impl SoftLook {
 
     fn vertex_count(&self) -> usize {
         match &self.surface {
-            Surface::Section(section) => section.vertex_count(),
+            Surface::Section(section) => section.places().len(),
             _ => self.skin().map_or(0, |skin| skin.bindings().len()),
         }
     }
@@ -183,11 +183,14 @@ impl SoftSkin {
         }
         renderer.write_painted_mesh(self.mesh, &self.deformed.positions, &self.deformed.normals, &self.paint);
         if field == Field::Directions {
-            let kept = match &self.look.surface {
-                Surface::Section(section) => Some(&section.kept[..]),
-                _ => None,
-            };
-            self.look.directions.draw(&self.look.kind.model, &self.cells, kept, overlay);
+            let model = &self.look.kind.model;
+            match &self.look.surface {
+                Surface::Section(section) => {
+                    let sites = section.places().iter().copied().zip(self.deformed.normals.iter().copied());
+                    self.look.directions.draw(model, &self.cells, sites, overlay);
+                }
+                _ => self.look.directions.draw_boundary(model, &self.cells, overlay),
+            }
         }
         Some(self.mesh)
     }
