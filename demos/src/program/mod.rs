@@ -18,6 +18,7 @@ mod pictures;
 mod player;
 mod section;
 mod soft_painter;
+mod soft_panel;
 mod soft_skin;
 mod strip;
 mod summary;
