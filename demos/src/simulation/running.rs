@@ -50,6 +50,8 @@ pub struct Simulation {
     pub soft_times: ProcDefTimes,
     pub(super) grab: Option<Grab>,
     pub(super) hands: Vec<Hand>,
+    /// Cues before this time have been followed.
+    pub(super) cued: f32,
 }
 
 impl Simulation {
@@ -73,6 +75,7 @@ impl Simulation {
             soft_times: ProcDefTimes::default(),
             grab: None,
             hands,
+            cued: 0.0,
         })
     }
 

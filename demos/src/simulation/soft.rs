@@ -182,12 +182,10 @@ impl Simulation {
         things.iter().map(|thing| self.physics.bodies.get((*thing)?).map(|body| *body.position())).collect()
     }
 
-    /// The cues that are due before the time `next`, each once: at the end of the substep in which its time lies.
+    /// The cues that are due before the time `next`, each once: at the beginning of the substep in which its time lies.
     pub(super) fn follow_cues(&mut self, next: f32) {
-        let before = next - self.physics.integration_parameters.dt;
-        // Half a millionth of a second is less than any step and more than the rounding of times.
-        let due = |time: f32| time > before - 5e-7 && time <= next - 5e-7;
-        for cue in self.scene.cues.iter().filter(|cue| due(cue.time)) {
+        let since = std::mem::replace(&mut self.cued, next);
+        for cue in self.scene.cues.iter().filter(|cue| (since..next).contains(&cue.time)) {
             for actor in cue.bodies.iter().filter_map(|&body| self.soft_actors.get(body)) {
                 let Some(model) = self.creatures.model(actor.handle).cloned() else { continue };
                 let Some(motion) = self.creatures.motion_mut(actor.handle) else { continue };
