@@ -20,12 +20,15 @@ const WIRE: [f32; 4] = [0.02, 0.02, 0.03, 0.55];
 /// Faces of rigid things that meet at more than this angle have an edge between them, in degrees.
 const CREASE: f32 = 50.0;
 
+/// The rigid things of a body.
+type Things = Vec<(MeshId, Material)>;
+
 /// Draws the bodies of one simulation that move by themselves.
 pub struct SoftPainter {
     cut: Option<Cut>,
     skins: Vec<SoftSkin>,
     /// For each body its rigid things.
-    things: Vec<Vec<(MeshId, Material)>>,
+    things: Vec<Things>,
     water: Vec<(MeshId, Mat4)>,
 }
 
@@ -34,7 +37,7 @@ impl SoftPainter {
     pub fn new(renderer: &mut Renderer, simulation: &Simulation, cut: Option<Cut>) -> Self {
         let mut looks: Vec<(Arc<SoftKind>, Arc<SoftLook>)> = Vec::new();
         let (mut skins, mut things) = (Vec::new(), Vec::new());
-        let mut meshes: Vec<(Arc<SoftKind>, Vec<(MeshId, Material)>)> = Vec::new();
+        let mut meshes: Vec<(Arc<SoftKind>, Things)> = Vec::new();
         for (actor, body) in simulation.soft_actors.iter().zip(&simulation.scene.soft_bodies) {
             let known = looks.iter().find(|(kind, _)| cut.is_none() && Arc::ptr_eq(kind, &actor.kind));
             let look = known
@@ -92,7 +95,7 @@ impl SoftPainter {
 }
 
 /// The rigid things of a kind.
-fn things(renderer: &mut Renderer, kind: &SoftKind) -> Vec<(MeshId, Material)> {
+fn things(renderer: &mut Renderer, kind: &SoftKind) -> Things {
     let things = kind.things.iter().map(|thing| {
         let mesh = creased(&thing.mesh.positions, &thing.mesh.triangles, CREASE);
         let colour = thing.colour.map_or(Vec3::new(0.45, 0.30, 0.16), Vec3::from);

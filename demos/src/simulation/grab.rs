@@ -56,6 +56,10 @@ pub enum Take {
 /// Natural frequency of the pull in hertz; it is critically damped.
 const FREQUENCY: f32 = 2.0;
 
+/// The same of a hold on a body that moves by itself. It is critically damped for what is held; the rest of the body hangs
+/// on it and swings for a while.
+const SOFT_FREQUENCY: f32 = 4.0;
+
 /// How far a hold on a body that moves by itself reaches, in sizes of the body.
 const SOFT_REACH: f32 = 0.2;
 
@@ -121,7 +125,7 @@ impl Simulation {
         let actor = self.soft_actors.get(hit.actor)?;
         let radius = SOFT_REACH * actor.kind.model.rig.mesh().size();
         let grip = self.creatures.grab(actor.handle, hit.point, radius)?;
-        grip.frequency = FREQUENCY;
+        grip.frequency = SOFT_FREQUENCY;
         Some(Hold::Soft(hit.actor))
     }
 
