@@ -60,8 +60,8 @@ impl Field {
             Self::Excitation => {
                 // The blend with the material is the opacity; the root makes faint excitations visible. In full light the
                 // colours would be pale.
-                let full = 0.7 * Vec3::from(excitation_colour(value.signum(), [0.0; 3]));
-                Paint::new(full, 0.94 * value.abs().min(1.0).powf(0.6))
+                let full = 0.6 * Vec3::from(excitation_colour(value.signum(), [0.0; 3]));
+                Paint::new(full, 0.94 * value.abs().min(1.0).powf(0.5))
             }
             Self::Layers if value < 0.5 => ramp(BLUE, PALE, 2.0 * value),
             Self::Layers => ramp(PALE, RED, 2.0 * value - 1.0),
