@@ -103,3 +103,75 @@ fn things(renderer: &mut Renderer, kind: &SoftKind) -> Things {
     });
     things.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fields::Field;
+    use super::super::moment::Moment;
+    use super::super::painter::Painter;
+    use super::super::{choose, looks};
+    use super::*;
+    use crate::render::device::tests::device_or_skip;
+    use crate::render::{Picture, picture};
+    use image::RgbaImage;
+
+    const SIZE: [u32; 2] = [200, 160];
+
+    fn difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
+        let sum: u64 = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        sum as f64 / a.as_raw().len() as f64
+    }
+
+    /// Pixels whose first part is far above the third, and the other way round.
+    fn red_and_blue(image: &RgbaImage) -> [usize; 2] {
+        let count = |a: usize, b: usize| image.pixels().filter(|p| i32::from(p[a]) > i32::from(p[b]) + 60).count();
+        [count(0, 2), count(2, 0)]
+    }
+
+    #[test]
+    fn fields_and_cuts_are_seen_and_go_away_again() {
+        let Some(gpu) = device_or_skip("fields_and_cuts_are_seen_and_go_away_again") else { return };
+        let mut simulation = choose::simulation("bending-bar", 0).unwrap();
+        (0..60).for_each(|_| simulation.step());
+        let now = Moment::of(&simulation);
+        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, SIZE);
+        let mut painter = Painter::new(&mut renderer, &simulation, false);
+        let target = Picture::new(&gpu.device, SIZE);
+        let camera = looks::camera(&simulation.scene.camera);
+        let mut take = |field, cut| {
+            (painter.shown.field, painter.shown.cut) = (field, cut);
+            let frame = painter.frame(&mut renderer, &simulation, [&now, &now], 1.0, camera);
+            target.take(&mut renderer, &frame).unwrap()
+        };
+        let plain = take(Field::Plain, None);
+        let [red, blue] = red_and_blue(&plain);
+        assert!(red + blue < 10, "the bar is grey: {red} {blue}");
+        // A quarter of its cycle: the upper side is expanded, the lower one contracted.
+        let [red, _] = red_and_blue(&take(Field::Excitation, None));
+        assert!(red > 50, "{red}");
+        let [red, blue] = red_and_blue(&take(Field::Amplitude, None));
+        assert!(red > 200 && blue > 200, "{red} {blue}");
+        let directions = difference(&plain, &take(Field::Directions, None));
+        assert!(directions > 0.3, "{directions}");
+        let cut = difference(&plain, &take(Field::Plain, Some(Cut { axis: 0, at: 0.0 })));
+        assert!(cut > 1.0, "half of the bar is gone: {cut}");
+        let again = difference(&plain, &take(Field::Plain, None));
+        assert!(again == 0.0, "{again}");
+    }
+
+    #[test]
+    fn a_translucent_body_is_drawn_from_far_to_near() {
+        let Some(gpu) = device_or_skip("a_translucent_body_is_drawn_from_far_to_near") else { return };
+        let simulation = choose::simulation("jellyfish", 0).unwrap();
+        let now = Moment::of(&simulation);
+        let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, SIZE);
+        let look =
+            Arc::new(SoftLook::new(&simulation.soft_actors[0].kind, None, &pliant::math::Pose::IDENTITY, Vec3::Z));
+        let mut skin = SoftSkin::new(&mut renderer, &look);
+        skin.show(&renderer, [&now.soft[0], &now.soft[0]], 1.0, Field::Plain, &mut Overlay::default()).unwrap();
+        for eye in [Vec3::Z * 5.0, Vec3::new(-4.0, 2.0, 0.0)] {
+            let away: Vec<f32> = skin.sort(&renderer, eye).iter().map(|(away, _)| *away).collect();
+            assert!(away.len() > 10_000 && away.windows(2).all(|pair| pair[0] >= pair[1]));
+        }
+    }
+}

@@ -144,8 +144,8 @@ impl SoftSkin {
     }
 
     /// Brings the triangles into the order in which they are seen from `eye`, the farthest first: a translucent body is
-    /// drawn in it.
-    pub fn sort(&mut self, renderer: &Renderer, eye: Vec3) {
+    /// drawn in it. The triangles, each with the square of its distance (times nine).
+    pub fn sort(&mut self, renderer: &Renderer, eye: Vec3) -> &[(f32, [u32; 3])] {
         let x = &self.deformed.positions;
         let away = |t: &[u32; 3]| t.iter().map(|&v| x[v as usize]).sum::<Vec3>().distance_squared(3.0 * eye);
         self.order.clear();
@@ -153,6 +153,7 @@ impl SoftSkin {
         self.order.sort_by(|a, b| b.0.total_cmp(&a.0));
         let sorted: Vec<[u32; 3]> = self.order.iter().map(|(_, t)| *t).collect();
         renderer.write_indices(self.mesh, sorted.as_flattened());
+        &self.order
     }
 
     /// Uploads the place `alpha` between two moments of the body, painted with a field, and returns its mesh. Directions
