@@ -222,7 +222,11 @@ fn the_snail_answers_its_touches_from_there_on_and_comes_to_rest_again() {
 #[test]
 fn worms_sag_less_with_more_passes_and_little_with_the_solve() {
     let mut simulation = open("stiffness");
-    run(&mut simulation, 3.0);
+    for _ in 0..180 {
+        simulation.step();
+        let signals = simulation.soft_actors.iter().map(|actor| simulation.soft_figures(actor).stimuli);
+        assert_eq!(signals.sum::<usize>(), 0, "hanging is no touch");
+    }
     let sags: Vec<f32> = (0..5)
         .map(|worm| mean(&simulation, worm, |r| r.x.abs() < 0.1).y - mean(&simulation, worm, |r| r.x.abs() > 1.1).y)
         .collect();
@@ -230,7 +234,6 @@ fn worms_sag_less_with_more_passes_and_little_with_the_solve() {
     assert!(one > 0.5 && one > four && four > sixteen && sixteen > many && many < 0.1, "{sags:?}");
     // What is held by few vertices gives way there, however stiff the rest is.
     assert!(solve < sixteen, "{sags:?}");
-    assert!((0..5).all(|worm| excitations(&simulation, worm).iter().all(|e| *e == 0.0)), "hanging is no touch");
 }
 
 #[test]
