@@ -293,3 +293,47 @@ fn a_seed_moves_the_start_of_a_soft_body() {
     });
     assert!(written.distance(moved) > 1e-2 && moved == again);
 }
+
+#[test]
+fn an_elastic_ball_bounces_on_a_worm_and_both_go_on() {
+    let rigs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets/rigs").canonicalize().unwrap();
+    let rig = |name: &str| rigs.join(name).display().to_string();
+    let text = format!(
+        r#"name = "meeting"
+duration = 2
+substeps = 2
+camera = {{ eye = [1.5, 1.6, 5], target = [0, 0.5, 0] }}
+[[body]]
+name = "ball"
+rig = '{}'
+position = [0, 1.5, 0]
+[[soft_body]]
+name = "worm"
+rig = '{}'
+position = [-0.3, 0.18, 0]
+[[obstacle]]
+name = "floor"
+shape = {{ kind = "cuboid", half_extents = [50, 5, 50] }}
+position = [0, -5, 0]
+"#,
+        rig("ball.toml"),
+        rig("worm.toml")
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("meeting.toml");
+    std::fs::write(&path, text).unwrap();
+    let mut simulation = Simulation::new(load_scene(path).unwrap(), 0).unwrap();
+    let handle = simulation.actors[0].handle;
+    let mut flattest = f32::MAX;
+    for _ in 0..45 {
+        simulation.step();
+        let ball = simulation.deformation.get(handle).unwrap();
+        let heights = ball.positions().iter().map(|x| x.y);
+        let (low, high) = heights.fold((f32::MAX, f32::MIN), |(low, high), y| (low.min(y), high.max(y)));
+        flattest = flattest.min(high - low);
+        assert!(low > -0.02 && ball.is_finite(), "the ball is not in the floor: {low}");
+        assert_eq!(simulation.soft_report(&simulation.soft_actors[0]).frozen, None);
+    }
+    assert!(flattest < 0.93, "the ball is squashed: {flattest}");
+    assert!(positions(&simulation, 0).iter().all(|x| x.is_finite()));
+}

@@ -159,8 +159,9 @@ impl fmt::Display for Summary {
             true => write!(f, ", rapier {rigid:.2}")?,
             false => write!(
                 f,
-                "; ms a frame: rigid {rigid:.2}, springs {springs:.2}, contact {contact:.2}, deform {deform:.2}, \
-                 measure {measure:.2}"
+                "{} rigid {rigid:.2}, springs {springs:.2}, contact {contact:.2}, deform {deform:.2}, \
+                 measure {measure:.2}",
+                if self.soft.bodies > 0 { "," } else { "; ms a frame:" }
             )?,
         }
         if self.pictures > 0 {

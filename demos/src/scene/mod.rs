@@ -20,5 +20,6 @@ pub(crate) use random::Random;
 pub use shape_types::{Member, ObstacleShape, Points, VoxelSource};
 pub use soft_types::{Attachment, Cue, SoftBody, Water};
 pub use types::{
-    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene, Spin,
+    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, MAX_SUBSTEPS, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene,
+    Spin,
 };
