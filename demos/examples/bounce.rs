@@ -57,12 +57,12 @@ impl Stage for Bounce {
     fn camera(&self) -> Camera {
         Camera::looking(Vec3::new(2.5, 2.5, 6.5), Vec3::Y)
     }
-    fn frame(&mut self, renderer: &mut Renderer, alpha: f32) -> Frame {
+    fn frame(&mut self, renderer: &mut Renderer, alpha: f32, camera: Camera) -> Frame {
         let mesh = *self.mesh.get_or_insert_with(|| renderer.add_mesh(&shapes::ball(Self::RADIUS)));
         let at = Mat4::from_translation(self.before.lerp(self.now.0, alpha));
         let mut item = Item::new(mesh, at, Material::glossy(Vec3::new(0.5, 0.1, 0.05)));
         item.wire = self.wire.then_some([0.0, 0.0, 0.0, 0.7]);
-        Frame { items: vec![item], ..Frame::default() }
+        Frame { camera, items: vec![item], ..Frame::default() }
     }
     fn grab(&mut self, origin: Vec3, direction: Vec3, _other: bool) -> bool {
         let to = self.now.0 - origin;
@@ -78,6 +78,12 @@ impl Stage for Bounce {
     }
     fn release(&mut self) {
         self.held = None;
+    }
+    fn touch(&mut self, origin: Vec3, direction: Vec3) {
+        let to = self.now.0 - origin;
+        if (to - direction * to.dot(direction)).length() < Self::RADIUS {
+            self.now.1 += Vec3::Y * 3.0;
+        }
     }
     fn panel(&mut self, ui: &mut egui::Ui) {
         ui.checkbox(&mut self.wire, "edges");

@@ -9,6 +9,7 @@ use pliant_demos::modeller::mesh::Mesh;
 use pliant_demos::modeller::obj;
 use pliant_demos::modeller::soft::cells::Cells;
 use pliant_demos::modeller::soft::{bar, bowel, heart, jellyfish, rigs, shell, snail, worm};
+use pliant_demos::modeller::subdivide::subdivided;
 
 fn main() -> Result<()> {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../assets");
@@ -39,6 +40,8 @@ fn main() -> Result<()> {
         write_tetrahedral(meshes.join(format!("{name}.mesh")), &mesh, TetrahedralFormat::Medit)?;
         tell(name, &mesh);
     }
+    let snail = subdivided(&subdivided(&snail::snail(&snail::COARSE).surface()));
+    write_skin(&meshes.join("snail_skin.obj"), &snail)?;
     write_skin(&meshes.join("snail_shell.obj"), &shell::shell(3000))?;
     for (name, rig) in rigs::rigs() {
         let path = rig_files.join(format!("{name}.toml"));

@@ -24,14 +24,19 @@ fn deformation(body: &ElasticBody) -> f32 {
 }
 
 #[test]
-fn every_scene_runs_without_a_frozen_body_and_stays_in_its_place() {
+fn every_scene_of_elastic_bodies_runs_without_a_frozen_body_and_stays_in_its_place() {
     let names = scene_names();
     for name in ["ball", "tower", "ring", "draggers", "heap", "press", "funnel", "corners", "wires", "spikes", "crates"]
     {
         assert!(names.iter().any(|n| n == name), "{name} is missing");
     }
     for name in names {
-        let mut simulation = Simulation::new(scene(&name), 0).unwrap();
+        // Those of soft bodies are the matter of their own tests.
+        let scene = scene(&name);
+        if scene.bodies.is_empty() {
+            continue;
+        }
+        let mut simulation = Simulation::new(scene, 0).unwrap();
         for step in 0..STEPS {
             simulation.step();
             for actor in &simulation.actors {

@@ -87,8 +87,7 @@ impl ProcDefWorld {
             let Some(entry) = self.entries.get_mut(visit.index) else { continue };
             let Some(trigger) = &mut entry.trigger else { continue };
             let mut ignored = vec![false; entry.impulses.len()];
-            let attached = entry.model.attachments.iter().flat_map(|a| &a.vertices);
-            for &v in visit.ground.iter().map(|c| &c.vertex).chain(attached) {
+            for &v in visit.ground.iter().map(|c| &c.vertex).chain(&entry.attached) {
                 ignored[v as usize] = true;
             }
             let felt = FeltContacts::of(&entry.impulses, &ignored);

@@ -55,6 +55,8 @@ pub(super) struct ProcDefEntry {
     pub trigger: Option<ContactTrigger>,
     pub directions: Option<Arc<GroundDirections>>,
     pub grip: Option<Grip>,
+    /// Vertices that are attached to something, and feel it all the time.
+    pub attached: Vec<u32>,
     /// Velocities that were written for rapier's next step; empty until then and while the body is frozen.
     pub written: Vec<Vec3>,
     /// Impulses of rapier's last step.
@@ -101,7 +103,9 @@ impl ProcDefWorld {
             Some((_, twin)) => twin.directions.clone(),
             None => model.ground.map(|g| Arc::new(GroundDirections::new(model.rig.mesh(), g))),
         };
+        let attached = model.attachments.iter().flat_map(|a| &a.vertices).copied().collect();
         ProcDefHandle(self.entries.insert(ProcDefEntry {
+            attached,
             body,
             motion: Motion::at(start.clock),
             link: ProcDefLink { soft_body, attachments },
@@ -186,9 +190,14 @@ impl ProcDefWorld {
         radius: f32,
         sets: impl Into<ProcDefSets<'a>>,
     ) -> usize {
-        let Some(entry) = self.entries.get(handle.0) else { return 0 };
+        let Some(entry) = self.entries.get_mut(handle.0) else { return 0 };
         let vertices = entry.model.vertices_within(centre, radius);
-        if attach_to(bone, &vertices, entry.link.soft_body, &mut sets.into()) { vertices.len() } else { 0 }
+        if !attach_to(bone, &vertices, entry.link.soft_body, &mut sets.into()) {
+            return 0;
+        }
+        let count = vertices.len();
+        entry.attached.extend(vertices);
+        count
     }
 
     /// Touches a body at a point of the world: a stimulus starts at the vertex next to it. False where it answers none.
@@ -209,6 +218,11 @@ impl ProcDefWorld {
     }
 
     /// The grip on a body.
+    pub fn grip(&self, handle: ProcDefHandle) -> Option<&Grip> {
+        self.entries.get(handle.0)?.grip.as_ref()
+    }
+
+    /// The grip on a body, to lead it.
     pub fn grip_mut(&mut self, handle: ProcDefHandle) -> Option<&mut Grip> {
         self.entries.get_mut(handle.0)?.grip.as_mut()
     }

@@ -10,6 +10,9 @@ use crate::kinds::Placed;
 #[allow(dead_code)] // the program's reader asks more of these structures than is needed to write them
 #[path = "../../demos/src/scene/raw.rs"]
 mod raw;
+#[allow(dead_code)] // the same
+#[path = "../../demos/src/scene/raw_soft.rs"]
+mod raw_soft;
 
 use raw::{RawBody, RawCamera, RawObstacle, RawScene};
 
@@ -44,6 +47,7 @@ pub fn write_scene(name: &str, rig: &Path, pose: Pose, size: f32, obstacles: &[P
         name: name.into(),
         duration: 1.0,
         dt: 1.0 / 60.0,
+        substeps: 1,
         gravity: [0.0; 3],
         softness: None,
         camera: RawCamera {
@@ -61,6 +65,10 @@ pub fn write_scene(name: &str, rig: &Path, pose: Pose, size: f32, obstacles: &[P
         }],
         obstacle: obstacles.iter().map(obstacle).collect(),
         dragger: Vec::new(),
+        soft_body: Vec::new(),
+        water: Vec::new(),
+        cue: Vec::new(),
+        attachment: Vec::new(),
     };
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.toml"));
     let text = toml::to_string(&scene).expect("plain data");

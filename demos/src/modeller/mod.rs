@@ -16,6 +16,7 @@ pub mod rock;
 pub mod shapes;
 pub mod smooth;
 pub mod soft;
+pub mod subdivide;
 pub mod surface;
 pub mod surgery;
 pub mod toys;

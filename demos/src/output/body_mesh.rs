@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 const MAX_NAME: usize = 64;
 
 /// Names that the program or a system uses for other things.
-const TAKEN: [&str; 6] = ["obstacles", "metrics", "con", "nul", "prn", "aux"];
+const TAKEN: [&str; 7] = ["obstacles", "metrics", "soft_bodies", "con", "nul", "prn", "aux"];
 
 /// A file name (without ending) for each body, in order: letters, digits, `-` and `_` are kept, all else becomes `_`.
 /// Names that differ in no more than case get `_2`, `_3` and so on behind them.

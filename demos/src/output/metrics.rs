@@ -45,7 +45,7 @@ pub struct MetricsRow {
     pub ms_deform: f64,
 }
 
-/// Writes the table row by row.
+/// Writes a table row by row.
 #[derive(Debug)]
 pub struct MetricsWriter {
     table: csv::Writer<AtomicFile>,
@@ -53,15 +53,15 @@ pub struct MetricsWriter {
 }
 
 impl MetricsWriter {
-    /// Begins the table with its header.
+    /// Begins a table with its first line.
     ///
     /// # Errors
     /// A file that cannot be created.
-    pub fn create(path: impl AsRef<Path>) -> Result<Self, OutputError> {
+    pub fn create(path: impl AsRef<Path>, header: &str) -> Result<Self, OutputError> {
         let path = path.as_ref().to_path_buf();
         let file = AtomicFile::create(&path).map_err(at(&path))?;
         let mut table = csv::WriterBuilder::new().has_headers(false).from_writer(file);
-        table.write_record(METRICS_HEADER.split(',')).map_err(|e| at(&path)(plain(e)))?;
+        table.write_record(header.split(',')).map_err(|e| at(&path)(plain(e)))?;
         Ok(Self { table, path })
     }
 
@@ -69,7 +69,7 @@ impl MetricsWriter {
     ///
     /// # Errors
     /// A failed write.
-    pub fn write(&mut self, row: &MetricsRow) -> Result<(), OutputError> {
+    pub fn write(&mut self, row: &impl Serialize) -> Result<(), OutputError> {
         self.table.serialize(row).map_err(|e| at(&self.path)(plain(e)))
     }
 
@@ -92,6 +92,7 @@ fn plain(error: csv::Error) -> io::Error {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{SOFT_METRICS_HEADER, SoftMetricsRow};
     use super::*;
     use std::fs;
 
@@ -99,7 +100,7 @@ mod tests {
     fn rows_stand_under_the_header_and_names_are_escaped() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.csv");
-        let mut table = MetricsWriter::create(&path).unwrap();
+        let mut table = MetricsWriter::create(&path, METRICS_HEADER).unwrap();
         table
             .write(&MetricsRow { frame: 3, body: "a \"b\", c".into(), volume_ratio: 1.0, ..Default::default() })
             .unwrap();
@@ -112,12 +113,36 @@ mod tests {
     }
 
     #[test]
+    fn each_column_of_a_row_has_its_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        let mut table = MetricsWriter::create(&path, SOFT_METRICS_HEADER).unwrap();
+        let row = SoftMetricsRow {
+            frame: 2,
+            body: "worm 7".into(),
+            y: 0.5,
+            inverted: 3,
+            ms_drive: 1.5,
+            ..Default::default()
+        };
+        table.write(&row).unwrap();
+        table.finish().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        let [names, values] = [0, 1].map(|line| text.lines().nth(line).unwrap().split(',').collect::<Vec<_>>());
+        assert_eq!(names.len(), values.len());
+        for (name, value) in [("frame", "2"), ("body", "worm 7"), ("y", "0.5"), ("inverted", "3"), ("ms_drive", "1.5")]
+        {
+            assert_eq!(values[names.iter().position(|n| *n == name).unwrap()], value, "{name}");
+        }
+    }
+
+    #[test]
     fn a_table_without_rows_has_its_header_and_a_dropped_one_leaves_the_old() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.csv");
-        MetricsWriter::create(&path).unwrap().finish().unwrap();
+        MetricsWriter::create(&path, METRICS_HEADER).unwrap().finish().unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap().trim_end(), METRICS_HEADER);
-        let mut table = MetricsWriter::create(&path).unwrap();
+        let mut table = MetricsWriter::create(&path, METRICS_HEADER).unwrap();
         table.write(&MetricsRow::default()).unwrap();
         drop(table);
         assert_eq!(fs::read_to_string(&path).unwrap().trim_end(), METRICS_HEADER);

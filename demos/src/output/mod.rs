@@ -8,6 +8,7 @@ mod metrics;
 mod obstacles;
 mod pc2;
 mod picture;
+mod soft_metrics;
 
 pub use body_mesh::{body_file_names, write_body_mesh};
 pub use error::OutputError;
@@ -15,3 +16,4 @@ pub use metrics::{METRICS_HEADER, MetricsRow, MetricsWriter};
 pub use obstacles::{ConvexPart, OBSTACLES_HEADER, ObstacleWriter, write_obstacle_parts};
 pub use pc2::{Pc2, Pc2Writer, read_pc2};
 pub use picture::{picture_path, write_picture};
+pub use soft_metrics::{SOFT_METRICS_HEADER, SoftMetricsRow};

@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
+use super::fields::Field;
+use super::section::Cut;
+
 /// Elastic bodies on top of a rigid world: plays scenes in a window, or writes their pictures and figures.
 #[derive(Debug, Parser)]
 #[command(name = "pliant", version, about)]
@@ -45,6 +48,15 @@ pub struct RunArgs {
     /// Write a film strip too, strip.png: N moments side by side, from the first frame to the last.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub strip: Option<u32>,
+    /// Rows of the film strip.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub strip_rows: u32,
+    /// What is painted on bodies that move by themselves.
+    #[arg(long, value_name = "FIELD", value_enum, default_value_t)]
+    pub show: Field,
+    /// Cut them open, such as x=0.1: a coordinate of the mesh at rest and its value in metres.
+    #[arg(long, value_name = "AXIS=VALUE")]
+    pub cut: Option<Cut>,
     /// Draw with the vertices that the processor deformed, not with the compute pass.
     #[arg(long)]
     pub cpu: bool,
@@ -65,6 +77,9 @@ impl RunArgs {
             no_pictures: false,
             picture_every: None,
             strip: None,
+            strip_rows: 1,
+            show: Field::default(),
+            cut: None,
             cpu: false,
             seed: 0,
         }
@@ -106,6 +121,9 @@ mod tests {
     fn defaults_and_sizes_are_understood() {
         let plain = run(&[]).unwrap();
         assert_eq!((plain.size, plain.seed, plain.is_headless()), ([960, 540], 0, false));
+        assert_eq!((plain.show, plain.cut, plain.strip_rows), (Field::Excitation, None, 1));
+        let shown = run(&["--show", "layers", "--cut", "z=-0.1"]).unwrap();
+        assert_eq!((shown.show, shown.cut), (Field::Layers, Some(Cut { axis: 2, at: -0.1 })));
         assert_eq!(run(&["--size", "1920X1080"]).unwrap().size, [1920, 1080]);
         assert!(run(&["--frames", "30"]).unwrap().is_headless() && run(&["--strip", "8"]).unwrap().is_headless());
     }
@@ -122,6 +140,9 @@ mod tests {
             ["--picture-every", "0"],
             ["--strip", "0"],
             ["--seed", "x"],
+            ["--show", "everything"],
+            ["--cut", "x"],
+            ["--strip-rows", "0"],
         ] {
             assert_eq!(run(&words).unwrap_err().exit_code(), 2, "{words:?}");
         }

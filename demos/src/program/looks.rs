@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::render::{Camera, Ground, Material, Region, Sun};
 use crate::scene::{self, Obstacle, ObstacleShape, Scene};
-use crate::simulation::{Actor, Simulation};
+use crate::simulation::{Actor, Simulation, SoftActor};
 
 /// A fixed, level box at least this wide in both directions is drawn as the ground, in metres.
 const GROUND_WIDTH: f32 = 20.0;
@@ -33,6 +33,13 @@ pub fn linear(colour: [f32; 3]) -> Vec3 {
 pub fn body(actor: &Actor) -> Material {
     let skin = Material::skin();
     Material { colour: actor.colour.map_or(skin.colour, linear), ..skin }
+}
+
+/// The flesh of a body that moves by itself: wet, and light goes into it. Colours of rigs are linear already.
+pub fn soft_body(actor: &SoftActor) -> Material {
+    let own = actor.kind.colour.map_or(Vec3::new(0.55, 0.32, 0.26), Vec3::from_array);
+    let colour = actor.colour.map_or(own, linear);
+    Material { colour, alpha: actor.opacity, roughness: 0.42, clearcoat: 0.35, subsurface: 0.8, ..Material::default() }
 }
 
 /// An obstacle: dark lacquer for bars, slate for walls, stone for meshes, varnish for balls; glass where one sees through.
@@ -94,6 +101,18 @@ pub fn region(simulation: &Simulation, ground: Option<&Ground>) -> Region {
         if let Some(body) = simulation.deformation.get(actor.handle) {
             body.positions().iter().for_each(|p| take(*p));
         }
+    }
+    for actor in &simulation.soft_actors {
+        if let Some(body) = simulation.creatures.get(actor.handle) {
+            body.positions().iter().for_each(|p| take(*p));
+        }
+    }
+    if !simulation.soft_actors.is_empty() {
+        // They go about in what the camera shows.
+        let camera = &simulation.scene.camera;
+        let seen = camera.eye.distance(camera.target) * (0.5 * camera.fov_degrees.to_radians()).tan();
+        take(camera.target - seen);
+        take(camera.target + seen);
     }
     for obstacle in simulation.obstacles.iter().filter(|o| self::ground(&o.obstacle).is_none()) {
         let way = obstacle.obstacle.path.as_ref().map_or(vec![Vec3::ZERO], |path| path.points.clone());

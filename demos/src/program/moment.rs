@@ -4,7 +4,7 @@ use pliant::elastic::Palette;
 use pliant::math::{Pose, Vec3};
 use pliant::spring::MassSpringSet;
 
-use crate::simulation::Simulation;
+use crate::simulation::{Simulation, SoftActor};
 
 /// A scene after one step.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +15,19 @@ pub struct Moment {
     pub bodies: Vec<BodyMoment>,
     /// Poses of the obstacles.
     pub obstacles: Vec<Pose>,
+    /// Bodies that move by themselves, in the order of the soft actors.
+    pub soft: Vec<SoftMoment>,
+}
+
+/// A body that moves by itself, after one step.
+#[derive(Clone, Debug, Default)]
+pub struct SoftMoment {
+    /// The vertices of its cells.
+    pub positions: Vec<Vec3>,
+    /// The excitation of each of them.
+    pub excitations: Vec<f32>,
+    /// Where its rigid things are; none for one that there is not.
+    pub things: Vec<Option<Pose>>,
 }
 
 /// An elastic body after one step.
@@ -43,6 +56,19 @@ impl Moment {
             step: simulation.frame,
             bodies: simulation.actors.iter().map(|actor| body(actor.handle).unwrap_or_default()).collect(),
             obstacles: simulation.obstacle_poses(),
+            soft: simulation.soft_actors.iter().map(|actor| SoftMoment::of(simulation, actor)).collect(),
+        }
+    }
+}
+
+impl SoftMoment {
+    fn of(simulation: &Simulation, actor: &SoftActor) -> Self {
+        let mut excitations = Vec::new();
+        simulation.creatures.excitations_into(actor.handle, &mut excitations);
+        Self {
+            positions: simulation.creatures.get(actor.handle).map(|b| b.positions().to_vec()).unwrap_or_default(),
+            excitations,
+            things: simulation.thing_poses(actor),
         }
     }
 }

@@ -3,7 +3,9 @@
 use glam::{Mat4, Vec3};
 use pliant::elastic::{ElasticRig, SegmentShape};
 
+use super::fields::Field;
 use super::moment::{BodyMoment, Moment};
+use super::section::Cut;
 use crate::render::Overlay;
 use crate::scene::ObstacleShape;
 use crate::simulation::{ObstacleBody, Simulation};
@@ -27,6 +29,10 @@ pub struct Shown {
     pub parts: bool,
     /// Edges of the bodies' triangles.
     pub wireframe: bool,
+    /// What is painted on bodies that move by themselves.
+    pub field: Field,
+    /// Where they are cut open.
+    pub cut: Option<Cut>,
 }
 
 impl Shown {

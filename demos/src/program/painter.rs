@@ -13,8 +13,10 @@ use super::looks;
 use super::memory_skin::MemorySkin;
 use super::moment::Moment;
 use super::overlays::{self, Shown};
+use super::soft_painter::SoftPainter;
 use super::surfaces;
-use crate::render::{Frame, Ground, Item, Material, MeshId, Region, Renderer};
+use super::water;
+use crate::render::{Camera, Frame, Ground, Item, Material, MeshId, Region, Renderer};
 use crate::simulation::Simulation;
 
 /// Colour of the edges of triangles.
@@ -28,6 +30,7 @@ pub struct Painter {
     passes: Option<Passes>,
     trouble: Option<String>,
     skins: Vec<Option<(Skin, Arc<ElasticRig>)>>,
+    soft: SoftPainter,
     obstacles: Vec<Option<(MeshId, Material)>>,
     ground: Option<Ground>,
     region: Region,
@@ -55,6 +58,7 @@ impl Painter {
             passes: compute.then(|| Passes::new(renderer.device())),
             trouble: None,
             skins: Vec::new(),
+            soft: SoftPainter::new(renderer, simulation, None),
             obstacles,
             region: looks::region(simulation, ground.as_ref()),
             ground,
@@ -88,13 +92,14 @@ impl Painter {
         made.ok().map(|skin| Skin::Memory(Box::new(skin)))
     }
 
-    /// The place `alpha` between two moments of a simulation; 1 is the later one.
+    /// The place `alpha` between two moments of a simulation, 1 is the later one, as `camera` sees it.
     pub fn frame(
         &mut self,
         renderer: &mut Renderer,
         simulation: &Simulation,
         moments: [&Moment; 2],
         alpha: f32,
+        camera: Camera,
     ) -> Frame {
         let mut items = Vec::new();
         for (index, actor) in simulation.actors.iter().enumerate() {
@@ -113,16 +118,23 @@ impl Painter {
                 items.push(Item { casts_shadow: material.alpha >= FAINTEST_CASTER, ..item });
             }
         }
-        Frame {
-            camera: looks::camera(&simulation.scene.camera),
+        let mut overlay = overlays::overlay(simulation, &self.shown, moments, alpha);
+        let soft = moments.map(|moment| &moment.soft[..]);
+        items.extend(self.soft.items(renderer, simulation, soft, alpha, (&camera, &self.shown, &mut overlay)));
+        let mut frame = Frame {
+            camera,
             sun: looks::sun(&simulation.scene.camera),
             ground: self.ground,
             region: self.region,
             items,
-            overlay: overlays::overlay(simulation, &self.shown, moments, alpha),
+            overlay,
             fog: looks::fog(&simulation.scene, &self.region),
             ..Frame::default()
+        };
+        if water::is_diving(&simulation.scene) {
+            water::dive(&mut frame);
         }
+        frame
     }
 
     /// Brings a body's mesh up to date. A device that refuses gets vertices from memory from then on.
@@ -171,9 +183,9 @@ mod tests {
             let mut painter = Painter::new(&mut renderer, &simulation, compute);
             let target = Picture::new(&gpu.device, SIZE);
             [0.0, 0.3, 1.0].map(|alpha| {
-                let mut frame = painter.frame(&mut renderer, &simulation, [&moments[0], &moments[1]], alpha);
-                frame.camera.target = middle;
-                frame.camera.eye = middle + glam::Vec3::new(1.0, 0.5, 3.5);
+                let eye = middle + glam::Vec3::new(1.0, 0.5, 3.5);
+                let camera = Camera { eye, target: middle, ..looks::camera(&simulation.scene.camera) };
+                let frame = painter.frame(&mut renderer, &simulation, [&moments[0], &moments[1]], alpha, camera);
                 assert_eq!(painter.trouble(), None);
                 target.take(&mut renderer, &frame).unwrap()
             })

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 
 use super::args::RunArgs;
+use super::looks;
 use super::moment::Moment;
 use super::painter::Painter;
 use super::strip::Strip;
@@ -52,13 +53,15 @@ impl Pictures {
         }
         let watch = Watch::over(&gpu.device);
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, args.size);
-        let painter = Painter::new(&mut renderer, simulation, !args.cpu);
+        let mut painter = Painter::new(&mut renderer, simulation, !args.cpu);
         if let Some(trouble) = painter.trouble() {
             tell(&format!("the processor deforms the pictures' vertices: {trouble}"));
         }
+        painter.shown.field = args.show;
+        painter.shown.cut = args.cut;
         let target = Picture::new(&gpu.device, args.size);
         let every = (!args.no_pictures).then_some(every);
-        let strip = args.strip.map(|count| Strip::new(count, frames, args.size));
+        let strip = args.strip.map(|count| Strip::new(count, args.strip_rows, frames, args.size));
         Ok(Self { renderer, target, painter, folder: folder.into(), size: args.size, every, strip, watch })
     }
 
@@ -74,7 +77,8 @@ impl Pictures {
     /// Draws and writes a frame. What the device complains about is returned; nothing is written then.
     pub fn draw(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<Option<String>> {
         let now = Moment::of(simulation);
-        let described = self.painter.frame(&mut self.renderer, simulation, [&now, &now], 1.0);
+        let camera = looks::camera(&simulation.scene.camera);
+        let described = self.painter.frame(&mut self.renderer, simulation, [&now, &now], 1.0, camera);
         let taken = self.target.take(&mut self.renderer, &described);
         if let Some(complaint) = self.watch.complaint() {
             return Ok(Some(complaint));

@@ -1,16 +1,20 @@
 //! The player in the window: scenes to choose from, the hand that grabs, the panel of settings and figures.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use pliant::ui;
+use pliant::world::{ProcDefHandle, ProcDefWorld};
 
 use super::args::RunArgs;
 use super::moment::Moment;
 use super::overlays::Shown;
 use super::painter::Painter;
+use super::soft_panel::SoftPanel;
 use super::{choose, looks};
 use crate::render::{Camera, Frame, Renderer};
 use crate::scene::scene_names;
-use crate::simulation::{BuildError, Simulation, Take};
+use crate::simulation::{BuildError, Simulation, SoftActor, Take};
 use crate::window::Stage;
 
 /// How far grabbed skin takes its surroundings along at first, in sizes of the body.
@@ -31,6 +35,7 @@ pub struct Player {
     /// Whether the pointer pulls the skin rather than the body under it, and within how many sizes of the body.
     pulls_skin: bool,
     reach: f32,
+    soft: SoftPanel,
 }
 
 impl Player {
@@ -51,10 +56,11 @@ impl Player {
             moments: [now.clone(), now],
             painter: None,
             compute: !run.cpu,
-            shown: Shown::default(),
+            shown: Shown { field: run.show, cut: run.cut, ..Shown::default() },
             trouble: None,
             pulls_skin: false,
             reach: FIRST_REACH,
+            soft: SoftPanel::default(),
         })
     }
 
@@ -77,7 +83,26 @@ impl Player {
                 body.settings = settings;
             }
         }
+        for (before, after) in old.soft_actors.iter().zip(&new.soft_actors) {
+            keep_motion(&old.creatures, before, &mut new.creatures, after.handle);
+        }
         Ok(new)
+    }
+}
+
+/// Gives a body the settings and charts that it had before a restart.
+fn keep_motion(old: &ProcDefWorld, before: &SoftActor, new: &mut ProcDefWorld, after: ProcDefHandle) {
+    if let (Some(body), Some(again)) = (old.get(before.handle), new.get_mut(after)) {
+        again.settings = body.settings;
+    }
+    // What was never edited is still that of its kind.
+    let edited = old.model(before.handle).filter(|model| !Arc::ptr_eq(&model.motion, &before.kind.model.motion));
+    if let Some(model) = edited {
+        new.edit(after, |rig| {
+            // They were set once before, so that they can be set again.
+            let _ = rig.set_cyclic(model.motion.cyclic().cloned());
+            let _ = rig.set_response(model.motion.response().cloned());
+        });
     }
 }
 
@@ -119,14 +144,14 @@ impl Stage for Player {
         looks::camera(&self.simulation.scene.camera)
     }
 
-    fn frame(&mut self, renderer: &mut Renderer, alpha: f32) -> Frame {
+    fn frame(&mut self, renderer: &mut Renderer, alpha: f32, camera: Camera) -> Frame {
         let painter = self.painter.get_or_insert_with(|| {
             renderer.clear_meshes();
             Painter::new(renderer, &self.simulation, self.compute)
         });
         painter.shown = self.shown;
         let [before, now] = &self.moments;
-        let frame = painter.frame(renderer, &self.simulation, [before, now], alpha);
+        let frame = painter.frame(renderer, &self.simulation, [before, now], alpha, camera);
         if let Some(trouble) = painter.trouble() {
             self.trouble = Some(trouble.into());
         }
@@ -146,9 +171,21 @@ impl Stage for Player {
         self.simulation.release();
     }
 
+    fn touch(&mut self, origin: Vec3, direction: Vec3) {
+        if let Some(actor) = self.simulation.touch(origin, direction) {
+            self.soft.chosen = actor;
+        }
+    }
+
     fn panel(&mut self, panel: &mut egui::Ui) {
         if let Some(trouble) = &self.trouble {
             panel.colored_label(panel.visuals().error_fg_color, trouble);
+        }
+        if !self.simulation.soft_actors.is_empty() {
+            self.soft.show(panel, &mut self.simulation, &mut self.shown);
+        }
+        if self.simulation.actors.is_empty() && !self.simulation.soft_actors.is_empty() {
+            return;
         }
         ui::settings(panel, &mut self.simulation.deformation);
         panel.horizontal(|panel| {
@@ -198,6 +235,26 @@ mod tests {
         assert_eq!(player.simulation.deformation.settings.stiffness, 3.0);
         let handle = player.simulation.actors[0].handle;
         assert!(!player.simulation.deformation.get(handle).unwrap().settings.enabled);
+    }
+
+    #[test]
+    fn a_restart_keeps_edited_charts_and_settings_of_soft_bodies() {
+        let mut player = Player::open(&RunArgs::of("bending-bar")).unwrap();
+        let handle = player.simulation.soft_actors[0].handle;
+        (0..3).for_each(|_| player.step());
+        player.simulation.creatures.get_mut(handle).unwrap().settings.damping = 7.0;
+        player.simulation.creatures.edit(handle, |rig| {
+            let mut cyclic = rig.cyclic().unwrap().clone();
+            cyclic.charts.cycle = 1.25;
+            rig.set_cyclic(Some(cyclic)).unwrap();
+        });
+        player.restart();
+        let handle = player.simulation.soft_actors[0].handle;
+        let model = player.simulation.creatures.model(handle).unwrap();
+        assert_eq!(model.motion.cyclic().unwrap().charts.cycle, 1.25);
+        assert_eq!(player.simulation.creatures.get(handle).unwrap().settings.damping, 7.0);
+        assert_eq!(player.moments[1].soft[0].positions, player.moments[0].soft[0].positions);
+        assert_eq!(player.moments[1].step, 0);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use pliant::math::Vec3;
+
 use crate::simulation::Simulation;
 
 /// A body that is nowhere faster than this is at rest, in metres a second.
@@ -28,6 +30,21 @@ pub struct Summary {
     speed: f32,
     pictures: u64,
     picture_ms: f32,
+    soft: SoftSummary,
+}
+
+/// Figures of the bodies that move by themselves.
+#[derive(Clone, Debug, Default)]
+struct SoftSummary {
+    bodies: usize,
+    volume: Option<[f64; 2]>,
+    /// Most cells inside out at once.
+    inverted: usize,
+    frames_frozen: u64,
+    /// Where the centre of all was after the first step, and where it is.
+    way: Option<[Vec3; 2]>,
+    /// Sums of milliseconds: exchange, contact, drive.
+    stages: [f32; 3],
 }
 
 impl Summary {
@@ -55,6 +72,7 @@ impl Summary {
         for (sum, stage) in self.stages.iter_mut().zip(stages) {
             *sum += stage;
         }
+        self.soft.add(simulation);
         self.speed = fastest(simulation);
         self.still_since = match self.still_since {
             _ if self.speed > STILL => None,
@@ -67,6 +85,43 @@ impl Summary {
     pub fn add_picture(&mut self, milliseconds: f32) {
         self.pictures += 1;
         self.picture_ms += milliseconds;
+    }
+}
+
+impl SoftSummary {
+    fn add(&mut self, simulation: &Simulation) {
+        self.bodies = simulation.soft_actors.len();
+        let (mut inverted, mut frozen, mut centre) = (0, false, Vec3::ZERO);
+        for actor in &simulation.soft_actors {
+            let figures = simulation.soft_figures(actor);
+            let [low, high] = self.volume.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
+            self.volume = Some([low.min(figures.volume_ratio), high.max(figures.volume_ratio)]);
+            inverted += figures.inverted;
+            frozen |= simulation.soft_report(actor).frozen.is_some();
+            centre += figures.centre / self.bodies as f32;
+        }
+        self.inverted = self.inverted.max(inverted);
+        self.frames_frozen += u64::from(frozen);
+        self.way = Some([self.way.map_or(centre, |[first, _]| first), centre]);
+        let times = simulation.soft_times;
+        let stages = self.stages.iter_mut().zip([times.exchange, times.contact, times.drive]);
+        stages.for_each(|(sum, time)| *sum += time);
+    }
+
+    fn tell(&self, frames: u64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([low, high], [from, to]) = (self.volume.unwrap_or([1.0; 2]), self.way.unwrap_or_default());
+        let [x, y, z] = (to - from).to_array();
+        write!(
+            f,
+            "; {} moving by themselves: volume {low:.3} to {high:.3}, at most {} cells inside out, way of all \
+             ({x:.2}, {y:.2}, {z:.2}) m",
+            self.bodies, self.inverted
+        )?;
+        if self.frames_frozen > 0 {
+            write!(f, "; {} frames with a FROZEN one", self.frames_frozen)?;
+        }
+        let [exchange, contact, drive] = self.stages.map(|sum| sum / frames.max(1) as f32);
+        write!(f, "; ms a frame: particles {exchange:.2}, touch {contact:.2}, charts and matching {drive:.2}")
     }
 }
 
@@ -96,12 +151,19 @@ impl fmt::Display for Summary {
                 _ => write!(f, "; not at rest ({:.2} m/s)", self.speed)?,
             }
         }
+        if self.soft.bodies > 0 {
+            self.soft.tell(self.frames, f)?;
+        }
         let [rigid, springs, contact, deform, measure] = self.stages.map(|sum| sum / self.frames.max(1) as f32);
-        write!(
-            f,
-            "; ms a frame: rigid {rigid:.2}, springs {springs:.2}, contact {contact:.2}, deform {deform:.2}, \
-             measure {measure:.2}"
-        )?;
+        match self.bodies == 0 && self.soft.bodies > 0 {
+            true => write!(f, ", rapier {rigid:.2}")?,
+            false => write!(
+                f,
+                "{} rigid {rigid:.2}, springs {springs:.2}, contact {contact:.2}, deform {deform:.2}, \
+                 measure {measure:.2}",
+                if self.soft.bodies > 0 { "," } else { "; ms a frame:" }
+            )?,
+        }
         if self.pictures > 0 {
             write!(f, "; {} pictures of {:.0} ms", self.pictures, self.picture_ms / self.pictures as f32)?;
         }

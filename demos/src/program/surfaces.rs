@@ -10,6 +10,9 @@ use super::creases::creased;
 const BEVEL: f32 = 0.015;
 const BEVEL_SHARE: f32 = 0.15;
 
+/// Faces that meet at more than this angle have an edge between them, in degrees.
+const CREASE: f32 = 40.0;
+
 /// The surface of an obstacle in its own frame.
 pub fn surface(obstacle: &ObstacleBody) -> MeshData {
     let bevel = |side: f32| BEVEL.min(BEVEL_SHARE * side);
@@ -31,7 +34,7 @@ pub fn surface(obstacle: &ObstacleBody) -> MeshData {
             MeshData { positions, normals, indices: triangles.into_flattened() }
         }
         _ => match &obstacle.mesh {
-            Some(mesh) => creased(&mesh.positions, &mesh.triangles),
+            Some(mesh) => creased(&mesh.positions, &mesh.triangles, CREASE),
             None => parts(obstacle),
         },
     }
@@ -42,7 +45,7 @@ fn parts(obstacle: &ObstacleBody) -> MeshData {
     let mut all = MeshData::default();
     for part in &obstacle.parts {
         let placed: Vec<_> = part.positions.iter().map(|p| part.pose.transform_point(*p)).collect();
-        let mesh = creased(&placed, &part.triangles);
+        let mesh = creased(&placed, &part.triangles, CREASE);
         let first = all.positions.len() as u32;
         all.positions.extend(mesh.positions);
         all.normals.extend(mesh.normals);

@@ -88,6 +88,8 @@ pub struct Sky {
     pub horizon: Vec3,
     /// From below.
     pub bounce: Vec3,
+    /// How far the background turns to the light from below, straight down: 0 for not at all, as over a ground.
+    pub depth: f32,
     /// Share of this light that reaches surfaces; below one, the background is lighter than what it lights.
     pub fill: f32,
 }
@@ -98,6 +100,7 @@ impl Default for Sky {
             zenith: Vec3::new(0.95, 1.15, 1.45),
             horizon: Vec3::new(2.4, 2.42, 2.46),
             bounce: Vec3::new(0.80, 0.74, 0.68),
+            depth: 0.0,
             fill: 0.36,
         }
     }

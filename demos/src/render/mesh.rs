@@ -1,8 +1,11 @@
-//! Meshes on the device. Positions and normals lie in two tight buffers of four floats a vertex, whether they never
+//! Meshes on the device. Positions and normals lie in two tight buffers of four floats a vertex (the fourth of a
+//! normal is its vertex's paint, bit by bit), whether they never
 //! change, are written anew for each picture, or are filled by a compute pass that owns them.
 
 use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
+
+use super::paint::Paint;
 
 /// Names a mesh of a renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -36,9 +39,6 @@ impl MeshData {
         Self { positions, normals, indices }
     }
 }
-
-/// How many floats a vertex takes in a buffer.
-const STRIDE: u64 = 16;
 
 /// How the buffers of positions and normals must be usable.
 pub const VERTEX_USAGE: wgpu::BufferUsages =
@@ -136,7 +136,7 @@ impl Meshes {
         let indices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("indices"),
             contents: bytemuck::cast_slice(indices),
-            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE,
+            usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
         });
         let wire = super::pipeline::group(
             device,
@@ -156,9 +156,42 @@ impl Meshes {
     pub fn write(&self, queue: &wgpu::Queue, id: MeshId, positions: &[Vec4], normals: &[Vec4]) {
         let Some(mesh) = self.get(id) else { return };
         for (buffer, values) in [(&mesh.positions, positions), (&mesh.normals, normals)] {
-            assert!(values.len() as u64 * STRIDE <= buffer.size(), "more vertices than the mesh has");
             let raw: Vec<[f32; 4]> = values.iter().map(|v| v.to_array()).collect();
-            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&raw));
+            fill(queue, buffer, bytemuck::cast_slice(&raw));
         }
     }
+
+    /// Writes the corners of triangles anew; there must not be more of them than the mesh has.
+    pub fn write_indices(&self, queue: &wgpu::Queue, id: MeshId, indices: &[u32]) {
+        let Some(mesh) = self.get(id) else { return };
+        fill(queue, &mesh.indices, bytemuck::cast_slice(indices));
+    }
+
+    /// Writes vertices and their paint anew; there must not be more of them than the mesh has.
+    pub fn write_painted(
+        &self,
+        queue: &wgpu::Queue,
+        id: MeshId,
+        positions: &[Vec3],
+        normals: &[Vec3],
+        paint: &[Paint],
+    ) {
+        let Some(mesh) = self.get(id) else { return };
+        let raw: Vec<[f32; 4]> = positions.iter().map(|p| p.extend(1.0).to_array()).collect();
+        fill(queue, &mesh.positions, bytemuck::cast_slice(&raw));
+        let raw: Vec<[u32; 4]> = normals
+            .iter()
+            .zip(paint)
+            .map(|(n, paint)| {
+                let [x, y, z] = n.to_array().map(f32::to_bits);
+                [x, y, z, paint.0]
+            })
+            .collect();
+        fill(queue, &mesh.normals, bytemuck::cast_slice(&raw));
+    }
+}
+
+fn fill(queue: &wgpu::Queue, buffer: &wgpu::Buffer, bytes: &[u8]) {
+    assert!(bytes.len() as u64 <= buffer.size(), "more vertices than the mesh has");
+    queue.write_buffer(buffer, 0, bytes);
 }

@@ -66,11 +66,11 @@ pub const POSITION: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout
     attributes: &wgpu::vertex_attr_array![0 => Float32x4],
 };
 
-/// See [`POSITION`].
+/// Normal and paint of a vertex; see [`POSITION`].
 pub const NORMAL: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: 16,
     step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![1 => Float32x4],
+    attributes: &wgpu::vertex_attr_array![1 => Float32x3, 2 => Uint32],
 };
 
 /// What differs between the pipelines of this renderer.

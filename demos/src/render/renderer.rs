@@ -1,12 +1,13 @@
 //! The passes of a picture in their order.
 
-use glam::Vec4;
+use glam::{Vec3, Vec4};
 
 use super::frame::Frame;
 use super::list::DrawList;
 use super::mesh::{MeshData, MeshId, Meshes};
 use super::occlusion::Occlusion;
 use super::overlay_pass::OverlayPass;
+use super::paint::Paint;
 use super::pipeline;
 use super::shaders;
 use super::shadow::ShadowMap;
@@ -118,6 +119,16 @@ impl Renderer {
     /// Moves the vertices of a mesh.
     pub fn write_mesh(&self, id: MeshId, positions: &[Vec4], normals: &[Vec4]) {
         self.meshes.write(&self.queue, id, positions, normals);
+    }
+
+    /// Moves the vertices of a mesh and paints them.
+    pub fn write_painted_mesh(&self, id: MeshId, positions: &[Vec3], normals: &[Vec3], paint: &[Paint]) {
+        self.meshes.write_painted(&self.queue, id, positions, normals, paint);
+    }
+
+    /// Brings the triangles of a mesh into another order: translucent ones are drawn in it.
+    pub fn write_indices(&self, id: MeshId, indices: &[u32]) {
+        self.meshes.write_indices(&self.queue, id, indices);
     }
 
     /// Forgets a mesh.

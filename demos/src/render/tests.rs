@@ -4,7 +4,7 @@ use glam::{Mat4, Vec3};
 use image::RgbaImage;
 
 use super::device::tests::device_or_skip;
-use super::{Camera, Frame, Item, Material, Picture, Region, Renderer, picture, shapes};
+use super::{Camera, Frame, Item, Material, Paint, Picture, Region, Renderer, picture, shapes};
 
 const SIZE: [u32; 2] = [240, 160];
 
@@ -110,4 +110,31 @@ fn resized_pictures_and_overlays() {
     let wired = target.take(&mut renderer, &frame).unwrap();
     let changed = plain.pixels().zip(wired.pixels()).filter(|(a, b)| a != b).count();
     assert!(changed > 50 && changed < 6000, "{changed} pixels belong to edges");
+}
+
+#[test]
+fn paint_covers_the_material_as_far_as_it_is_opaque() {
+    let Some(gpu) = device_or_skip("paint_covers_the_material_as_far_as_it_is_opaque") else { return };
+    let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, SIZE);
+    let target = Picture::new(&gpu.device, SIZE);
+    let mut frame = frame_with_ball(&mut renderer);
+    let plain = target.take(&mut renderer, &frame).unwrap();
+    let at = pixel_of(&frame, Vec3::Y);
+    let data = shapes::ball(0.5);
+    let mut painted = |paint: Paint| {
+        let paint = vec![paint; data.positions.len()];
+        renderer.write_painted_mesh(frame.items[0].mesh, &data.positions, &data.normals, &paint);
+        target.take(&mut renderer, &frame).unwrap()
+    };
+    let blue = Vec3::new(0.02, 0.05, 0.7);
+    assert!(painted(Paint::new(blue, 0.0)) == plain, "clear paint is none");
+    let [half, full] = [0.5, 1.0].map(|opacity| painted(Paint::new(blue, opacity)).get_pixel(at.0, at.1).0);
+    let before = plain.get_pixel(at.0, at.1).0;
+    assert!(before[0] > before[2] && full[2] > full[0], "red, then blue: {before:?} {full:?}");
+    assert!(half[2] > before[2] && half[2] < full[2] && half[0] < before[0] && half[0] > full[0], "{half:?}");
+    // The same as a ball that is blue by itself.
+    frame.items[0].material = Material::plain(blue);
+    let itself = target.take(&mut renderer, &frame).unwrap();
+    let itself = itself.get_pixel(at.0, at.1).0;
+    assert!(full.iter().zip(itself).all(|(a, b)| a.abs_diff(b) <= 2), "{full:?} {itself:?}");
 }

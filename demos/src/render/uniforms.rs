@@ -55,7 +55,7 @@ impl View {
             light_x: with(light.x, light.half_extent),
             light_y: with(light.y, light.range),
             zenith: with(frame.sky.zenith, frame.sky.fill),
-            horizon: with(frame.sky.horizon, 0.0),
+            horizon: with(frame.sky.horizon, frame.sky.depth),
             bounce: with(frame.sky.bounce, 0.0),
             ground: [ground.height, ground.grid, frame.fog[0], frame.fog[1].max(1e-3)],
             ground_colour: with(ground.colour, 0.0),

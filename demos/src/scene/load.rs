@@ -5,8 +5,11 @@ use super::dragger::dragger;
 use super::raw::{RawBody, RawObstacle, RawPath, RawScene, RawSpin};
 use super::shape::shape;
 use super::shape_types::ObstacleShape;
+use super::soft::{self, Groups};
+use super::soft_types::SoftBody;
 use super::types::{
-    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene, Spin,
+    Body, Camera, Dynamic, MAX_DT, MAX_DURATION, MAX_SUBSTEPS, Obstacle, ObstacleMass, ObstaclePath, PathKind, Scene,
+    Spin,
 };
 use pliant::elastic::{TomlError, TomlText, did_you_mean};
 use pliant::math::Vec3;
@@ -27,12 +30,12 @@ pub fn load_scene(path: impl AsRef<Path>) -> Result<Scene, TomlError> {
     }
     let bodies: Vec<Body> =
         raw.body.iter().enumerate().map(|(i, b)| body(&at.item("body", i), b)).collect::<Result<_, _>>()?;
-    let mut names = HashMap::new();
-    for (i, b) in bodies.iter().enumerate() {
-        if let Some(first) = names.insert(b.name.as_str(), i) {
-            let message = format!("`{}` is the name of body {first} too; names must differ", b.name);
-            return Err(at.item("body", i).error("name", message));
-        }
+    let (soft_bodies, groups) = soft::soft_bodies(&at, &raw.soft_body)?;
+    names_differ(&at, &bodies, &soft_bodies, &groups)?;
+    let obstacles: Vec<Obstacle> =
+        raw.obstacle.iter().enumerate().map(|(i, o)| obstacle(&at.item("obstacle", i), o)).collect::<Result<_, _>>()?;
+    if !(1..=MAX_SUBSTEPS).contains(&raw.substeps) {
+        return Err(at.error("substeps", format!("must be from 1 to {MAX_SUBSTEPS} and is {}", raw.substeps)));
     }
     Ok(Scene {
         duration: at.above_zero("duration", raw.duration, MAX_DURATION)?,
@@ -40,21 +43,50 @@ pub fn load_scene(path: impl AsRef<Path>) -> Result<Scene, TomlError> {
         gravity: at.finite("gravity", raw.gravity)?,
         softness: raw.softness.map(|s| at.above_zero("softness", s, 10.0)).transpose()?,
         camera: camera(&at, &raw)?,
-        obstacles: raw
-            .obstacle
-            .iter()
-            .enumerate()
-            .map(|(i, o)| obstacle(&at.item("obstacle", i), o))
-            .collect::<Result<_, _>>()?,
+        substeps: raw.substeps,
         draggers: raw
             .dragger
             .iter()
             .enumerate()
             .map(|(i, d)| dragger(&at.item("dragger", i), d, &bodies))
             .collect::<Result<_, _>>()?,
+        water: raw
+            .water
+            .iter()
+            .enumerate()
+            .map(|(i, w)| soft::water(&at.item("water", i), w))
+            .collect::<Result<_, _>>()?,
+        cues: raw
+            .cue
+            .iter()
+            .enumerate()
+            .map(|(i, c)| groups.cue(&at.item("cue", i), c, &soft_bodies))
+            .collect::<Result<_, _>>()?,
+        attachments: raw
+            .attachment
+            .iter()
+            .enumerate()
+            .map(|(i, a)| groups.attachment(&at.item("attachment", i), a, &soft_bodies, &obstacles))
+            .collect::<Result<_, _>>()?,
         bodies,
+        soft_bodies,
+        obstacles,
         name: raw.name,
     })
+}
+
+/// Refuses two bodies of one name, whatever they are. A crowd's own name is one too.
+fn names_differ(at: &At, bodies: &[Body], soft_bodies: &[SoftBody], groups: &Groups) -> Result<(), TomlError> {
+    let mut names: HashMap<&str, String> = HashMap::new();
+    let elastic = bodies.iter().enumerate().map(|(i, body)| ("body", i, body.name.as_str()));
+    let soft = groups.names(soft_bodies).map(|(i, name)| ("soft_body", i, name));
+    for (table, i, name) in elastic.chain(soft) {
+        if let Some(first) = names.insert(name, format!("{} {i}", table.replace('_', " "))) {
+            let message = format!("`{name}` is the name of {first} too; names must differ");
+            return Err(at.item(table, i).error("name", message));
+        }
+    }
+    Ok(())
 }
 
 fn camera(root: &At, raw: &RawScene) -> Result<Camera, TomlError> {
@@ -105,6 +137,8 @@ fn dynamic(at: &At, raw: &RawObstacle, shape: &ObstacleShape) -> Result<Option<D
         ("density", raw.density.is_some()),
         ("velocity", raw.velocity.is_some()),
         ("angular_velocity", raw.angular_velocity.is_some()),
+        ("linear_damping", raw.linear_damping.is_some()),
+        ("angular_damping", raw.angular_damping.is_some()),
     ];
     if !raw.dynamic {
         return match keys.into_iter().find(|(_, given)| *given) {
@@ -129,6 +163,8 @@ fn dynamic(at: &At, raw: &RawObstacle, shape: &ObstacleShape) -> Result<Option<D
         mass,
         velocity: at.finite("velocity", raw.velocity.unwrap_or_default())?,
         angular_velocity: at.finite("angular_velocity", raw.angular_velocity.unwrap_or_default())?,
+        linear_damping: at.between("linear_damping", raw.linear_damping.unwrap_or(0.0), 0.0, f32::MAX)?,
+        angular_damping: at.between("angular_damping", raw.angular_damping.unwrap_or(0.0), 0.0, f32::MAX)?,
     }))
 }
 

@@ -1,5 +1,6 @@
 //! A scene file as it is written, before anything is checked but its keys and types. The tests write scenes with it too.
 
+use super::raw_soft::{RawAttachment, RawCue, RawSoftBody, RawWater};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -12,6 +13,8 @@ pub struct RawScene {
     pub duration: f32,
     #[serde(default = "sixtieth")]
     pub dt: f32,
+    #[serde(default = "one")]
+    pub substeps: u32,
     #[serde(default = "earth")]
     pub gravity: Triple,
     pub softness: Option<f32>,
@@ -22,6 +25,18 @@ pub struct RawScene {
     pub obstacle: Vec<RawObstacle>,
     #[serde(default)]
     pub dragger: Vec<RawDragger>,
+    #[serde(default)]
+    pub soft_body: Vec<RawSoftBody>,
+    #[serde(default)]
+    pub water: Vec<RawWater>,
+    #[serde(default)]
+    pub cue: Vec<RawCue>,
+    #[serde(default)]
+    pub attachment: Vec<RawAttachment>,
+}
+
+fn one() -> u32 {
+    1
 }
 
 fn sixtieth() -> f32 {
@@ -80,6 +95,8 @@ pub struct RawObstacle {
     pub density: Option<f32>,
     pub velocity: Option<Triple>,
     pub angular_velocity: Option<Triple>,
+    pub linear_damping: Option<f32>,
+    pub angular_damping: Option<f32>,
     pub colour: Option<Triple>,
     pub opacity: Option<f32>,
     pub path: Option<RawPath>,

@@ -2,6 +2,7 @@
 
 use super::dragger::Dragger;
 use super::shape_types::ObstacleShape;
+use super::soft_types::{Attachment, Cue, SoftBody, Water};
 use pliant::math::{Pose, Vec3};
 use std::path::PathBuf;
 
@@ -11,7 +12,10 @@ pub const MAX_DT: f32 = 0.1;
 /// Longest duration of a scene in seconds.
 pub const MAX_DURATION: f32 = 3600.0;
 
-/// A scene of elastic bodies and obstacles.
+/// Most substeps of a step.
+pub const MAX_SUBSTEPS: u32 = 64;
+
+/// A scene of elastic bodies, bodies that move by themselves, and obstacles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Its name, not empty.
@@ -20,6 +24,8 @@ pub struct Scene {
     pub duration: f32,
     /// Time step in seconds: above 0, at most [`MAX_DT`].
     pub dt: f32,
+    /// Steps of the physics in one such step: from 1 to [`MAX_SUBSTEPS`].
+    pub substeps: u32,
     /// Gravity in metres a second squared.
     pub gravity: Vec3,
     /// Softness of all bodies instead of that of their rigs: above 0, at most 10.
@@ -32,6 +38,14 @@ pub struct Scene {
     pub obstacles: Vec<Obstacle>,
     /// Hands that follow a script.
     pub draggers: Vec<Dragger>,
+    /// Bodies that move by themselves, with names that differ.
+    pub soft_bodies: Vec<SoftBody>,
+    /// Where water is.
+    pub water: Vec<Water>,
+    /// What happens to soft bodies in time.
+    pub cues: Vec<Cue>,
+    /// What holds soft bodies.
+    pub attachments: Vec<Attachment>,
 }
 
 /// A camera.
@@ -98,6 +112,10 @@ pub struct Dynamic {
     pub velocity: Vec3,
     /// Angular velocity at the start in radians a second.
     pub angular_velocity: Vec3,
+    /// Rate at which its velocity dies away, in 1/s.
+    pub linear_damping: f32,
+    /// Rate at which its angular velocity dies away, in 1/s.
+    pub angular_damping: f32,
 }
 
 /// How heavy a dynamic obstacle is.

@@ -7,14 +7,16 @@ use std::sync::Arc;
 use pliant::coupling::{ObstacleError, RagdollStart};
 use pliant::elastic::{ElasticRig, RigError, load_rig};
 use pliant::math::{Pose, Quat, Vec3};
-use pliant::mesh::MeshError;
-use pliant::world::{DeformationWorld, ElasticBodyHandle};
+use pliant::mesh::{MeshError, TetrahedralError};
+use pliant::procdef::{MotionRigError, ProcDefRigError};
+use pliant::world::{DeformationWorld, ElasticBodyHandle, ProcDefWorld};
 use rapier3d::dynamics::RigidBodyType;
 use rapier3d::pipeline::PhysicsWorld;
 
 use super::obstacle::ObstacleBody;
 use super::running::Actor;
-use crate::scene::Scene;
+use super::soft::{SoftActor, insert_soft_bodies};
+use crate::scene::{Random, Scene};
 
 /// Why a scene does not come to life.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +24,37 @@ pub enum BuildError {
     /// A rig is wrong.
     #[error(transparent)]
     Rig(#[from] RigError),
+    /// The rig of a body that moves by itself is wrong.
+    #[error(transparent)]
+    MotionRig(#[from] MotionRigError),
+    /// The mesh of a body that moves by itself cannot be simulated.
+    #[error("{}: {error}", rig.display())]
+    Model {
+        /// The rig file.
+        rig: PathBuf,
+        /// Why.
+        error: ProcDefRigError,
+    },
+    /// The surface of a body that moves by itself cannot be drawn.
+    #[error("{}: {error}", rig.display())]
+    Skin {
+        /// The rig file.
+        rig: PathBuf,
+        /// Why.
+        error: TetrahedralError,
+    },
+    /// An attachment holds nothing.
+    #[error("attachment {attachment}: no vertex of {body} is within {radius} m of {centre}")]
+    Attachment {
+        /// Index of the attachment in the scene.
+        attachment: usize,
+        /// The body.
+        body: String,
+        /// Middle of the ball, in the mesh.
+        centre: Vec3,
+        /// Its radius.
+        radius: f32,
+    },
     /// The mesh of an obstacle is wrong.
     #[error(transparent)]
     Mesh(MeshError),
@@ -46,7 +79,9 @@ pub enum BuildError {
 pub(super) struct Built {
     pub physics: PhysicsWorld,
     pub deformation: DeformationWorld,
+    pub creatures: ProcDefWorld,
     pub actors: Vec<Actor>,
+    pub soft_actors: Vec<SoftActor>,
     pub obstacles: Vec<ObstacleBody>,
 }
 
@@ -71,7 +106,7 @@ pub(super) fn build(scene: &Scene, seed: u64) -> Result<Built, BuildError> {
             }
         };
         let start = RagdollStart {
-            pose: if seed == 0 { body.pose } else { random.nudged(body.pose, rig.mesh.size()) },
+            pose: if seed == 0 { body.pose } else { nudged(&mut random, body.pose, rig.mesh.size()) },
             linear_velocity: body.velocity,
             angular_velocity: body.angular_velocity,
             ..RagdollStart::default()
@@ -82,7 +117,9 @@ pub(super) fn build(scene: &Scene, seed: u64) -> Result<Built, BuildError> {
         }
         actors.push(Actor { name: body.name.clone(), handle, colour: body.colour });
     }
-    Ok(Built { physics, deformation, actors, obstacles })
+    let mut creatures = ProcDefWorld::new();
+    let soft_actors = insert_soft_bodies(scene, seed, &obstacles, &mut creatures, &mut physics)?;
+    Ok(Built { physics, deformation, creatures, actors, soft_actors, obstacles })
 }
 
 /// Fixes the rigid bodies of an elastic body where they are.
@@ -94,24 +131,10 @@ fn hold(deformation: &DeformationWorld, handle: ElasticBodyHandle, physics: &mut
     }
 }
 
-/// SplitMix64: the same starts for the same seed, everywhere.
-struct Random(u64);
-
-impl Random {
-    /// A number in [-1, 1).
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
-    }
-
-    /// A pose turned at random about all axes and moved a little sideways.
-    fn nudged(&mut self, pose: Pose, size: f32) -> Pose {
-        let turn = Vec3::new(0.4 * self.next(), std::f32::consts::PI * self.next(), 0.4 * self.next());
-        let shift = Vec3::new(self.next(), 0.0, self.next()) * (0.15 * size);
-        let rotation = Quat::from_scaled_axis(turn) * pose.rotation;
-        Pose::from_parts(pose.translation + shift, rotation)
-    }
+/// A pose turned at random about all axes and moved a little sideways.
+fn nudged(random: &mut Random, pose: Pose, size: f32) -> Pose {
+    let turn = Vec3::new(0.4 * random.next(), std::f32::consts::PI * random.next(), 0.4 * random.next());
+    let shift = Vec3::new(random.next(), 0.0, random.next()) * (0.15 * size);
+    let rotation = Quat::from_scaled_axis(turn) * pose.rotation;
+    Pose::from_parts(pose.translation + shift, rotation)
 }

@@ -7,6 +7,7 @@ use rapier3d::parry::shape::Triangle;
 
 use super::pull::Pull;
 use super::running::Simulation;
+use super::soft_hand::SoftHit;
 
 /// Where a ray meets a skin.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Hit {
 pub(super) struct Grab {
     hold: Hold,
     distance: f32,
+    /// Where the ray was at that distance when it was asked last.
+    goal: Vec3,
 }
 
 enum Hold {
@@ -37,6 +40,8 @@ enum Hold {
         dragger: DraggerHandle,
         aside: Vec3,
     },
+    /// Which soft actor.
+    Soft(usize),
 }
 
 /// What a grab takes hold of.
@@ -50,6 +55,13 @@ pub enum Take {
 
 /// Natural frequency of the pull in hertz; it is critically damped.
 const FREQUENCY: f32 = 2.0;
+
+/// The same of a hold on a body that moves by itself. It is critically damped for what is held; the rest of the body hangs
+/// on it and swings for a while.
+const SOFT_FREQUENCY: f32 = 4.0;
+
+/// How far a hold on a body that moves by itself reaches, in sizes of the body.
+const SOFT_REACH: f32 = 0.2;
 
 impl Simulation {
     /// The first skin that a ray meets.
@@ -78,8 +90,15 @@ impl Simulation {
     /// Grabs what is under a ray. False where there is nothing.
     pub fn grab(&mut self, origin: Vec3, direction: Vec3, take: Take) -> bool {
         self.release();
-        let held = self.pick(origin, direction).and_then(|hit| Some((self.hold(&hit, take)?, hit.distance)));
-        self.grab = held.map(|(hold, distance)| Grab { hold, distance });
+        let elastic = self.pick(origin, direction);
+        let limit = elastic.map_or(f32::MAX, |hit| hit.distance);
+        if let Some(hit) = self.pick_soft(origin, direction, limit) {
+            self.grab = self.hold_soft(&hit).map(|hold| Grab { hold, distance: hit.distance, goal: hit.point });
+            return self.grab.is_some();
+        }
+        let held = elastic
+            .and_then(|hit| Some(Grab { hold: self.hold(&hit, take)?, distance: hit.distance, goal: hit.point }));
+        self.grab = held;
         self.grab.is_some()
     }
 
@@ -102,10 +121,19 @@ impl Simulation {
         }
     }
 
+    fn hold_soft(&mut self, hit: &SoftHit) -> Option<Hold> {
+        let actor = self.soft_actors.get(hit.actor)?;
+        let radius = SOFT_REACH * actor.kind.model.rig.mesh().size();
+        let grip = self.creatures.grab(actor.handle, hit.point, radius)?;
+        grip.frequency = SOFT_FREQUENCY;
+        Some(Hold::Soft(hit.actor))
+    }
+
     /// Moves the goal of the grabbed point along with the ray, at the distance at which it was grabbed.
     pub fn drag(&mut self, origin: Vec3, direction: Vec3) {
         let Some(grab) = &mut self.grab else { return };
         let goal = origin + direction.normalize_or(Vec3::Z) * grab.distance;
+        let moved = goal - std::mem::replace(&mut grab.goal, goal);
         match &mut grab.hold {
             Hold::Body(pull) => pull.goal = goal,
             Hold::Skin { actor, dragger, aside } => {
@@ -114,16 +142,30 @@ impl Simulation {
                     body.move_dragger(*dragger, goal + *aside);
                 }
             }
+            Hold::Soft(actor) => {
+                let handle = self.soft_actors.get(*actor).map(|actor| actor.handle);
+                if let Some(grip) = handle.and_then(|handle| self.creatures.grip_mut(handle)) {
+                    grip.target += moved;
+                }
+            }
         }
     }
 
     /// Lets go.
     pub fn release(&mut self) {
-        if let Some(Grab { hold: Hold::Skin { actor, dragger, .. }, .. }) = self.grab.take() {
-            let body = self.actors.get(actor).and_then(|actor| self.deformation.get_mut(actor.handle));
-            if let Some(body) = body {
-                body.release_dragger(dragger);
+        match self.grab.take().map(|grab| grab.hold) {
+            Some(Hold::Skin { actor, dragger, .. }) => {
+                let body = self.actors.get(actor).and_then(|actor| self.deformation.get_mut(actor.handle));
+                if let Some(body) = body {
+                    body.release_dragger(dragger);
+                }
             }
+            Some(Hold::Soft(actor)) => {
+                if let Some(actor) = self.soft_actors.get(actor) {
+                    self.creatures.release(actor.handle);
+                }
+            }
+            Some(Hold::Body(_)) | None => {}
         }
     }
 
@@ -132,6 +174,11 @@ impl Simulation {
         match &self.grab.as_ref()?.hold {
             Hold::Body(pull) => Some((pull.point(&self.physics)?, pull.goal)),
             Hold::Skin { .. } => None,
+            Hold::Soft(actor) => {
+                let handle = self.soft_actors.get(*actor)?.handle;
+                let grip = self.creatures.grip(handle)?;
+                Some((grip.place(self.creatures.get(handle)?), grip.target))
+            }
         }
     }
 

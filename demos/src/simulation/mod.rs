@@ -9,6 +9,9 @@ mod running;
 mod scripted;
 mod shape;
 mod shown_part;
+mod soft;
+mod soft_figures;
+mod soft_hand;
 
 pub use build::BuildError;
 pub use grab::{Hit, Take};
@@ -16,3 +19,6 @@ pub use obstacle::ObstacleBody;
 pub use ring::ring_surface;
 pub use running::{Actor, Simulation};
 pub use shown_part::ShownPart;
+pub use soft::{AttachedThing, SoftActor, SoftKind};
+pub use soft_figures::SoftFigures;
+pub use soft_hand::SoftHit;

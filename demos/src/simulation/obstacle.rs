@@ -33,9 +33,12 @@ impl ObstacleBody {
         let (shape, mesh) = shape_of(name, &obstacle.shape)?;
         let parts = convex_parts(&shape).map_err(|error| BuildError::Parts { name: name.into(), error })?;
         let builder = match obstacle.dynamic {
-            Some(dynamic) => {
-                RigidBodyBuilder::dynamic().linvel(dynamic.velocity).angvel(dynamic.angular_velocity).ccd_enabled(true)
-            }
+            Some(dynamic) => RigidBodyBuilder::dynamic()
+                .linvel(dynamic.velocity)
+                .angvel(dynamic.angular_velocity)
+                .ccd_enabled(true)
+                .linear_damping(dynamic.linear_damping)
+                .angular_damping(dynamic.angular_damping),
             None if obstacle.is_moving() => RigidBodyBuilder::kinematic_position_based(),
             None => RigidBodyBuilder::fixed(),
         };

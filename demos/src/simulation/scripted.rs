@@ -76,9 +76,8 @@ fn lead(body: Option<&mut ElasticBody>, handle: DraggerHandle, offset: Vec3) {
 }
 
 impl Simulation {
-    /// All hands of the scene go on to the next step.
-    pub(super) fn follow_scripts(&mut self) {
-        let next = ((self.frame + 1) as f64 * f64::from(self.scene.dt)) as f32;
+    /// All hands of the scene go on to the time `next`.
+    pub(super) fn follow_scripts(&mut self, next: f32) {
         for hand in &mut self.hands {
             hand.follow(next, &self.actors, &mut self.physics, &mut self.deformation);
         }

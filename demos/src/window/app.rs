@@ -185,6 +185,10 @@ impl App {
                 if self.stage.grab(origin, direction, other) { Drag::Grab } else { Drag::Turn }
             };
         }
+        if let (true, Some(at)) = (response.clicked(), response.interact_pointer_pos()) {
+            let (origin, direction) = ray(at);
+            self.stage.touch(origin, direction);
+        }
         let moved = response.drag_delta() / rect.height();
         let moved = Vec2::new(moved.x, moved.y);
         match (self.drag, response.interact_pointer_pos()) {
@@ -205,7 +209,7 @@ impl App {
     }
 
     fn picture(&mut self, ui: &mut egui::Ui) {
-        let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::drag());
+        let (rect, response) = ui.allocate_exact_size(ui.available_size(), egui::Sense::click_and_drag());
         let before = self.orbit;
         self.pointer(ui, &response);
         let scale = ui.ctx().pixels_per_point() * self.detail;
@@ -216,8 +220,8 @@ impl App {
             input.pointer.any_down() || input.events.iter().any(|event| !still(event))
         });
         if resized || touched || before != self.orbit || std::mem::take(&mut self.stale) {
-            let mut frame = self.stage.frame(&mut self.view.renderer, self.clock.alpha(self.stage.dt()));
-            frame.camera = self.orbit.camera();
+            let alpha = self.clock.alpha(self.stage.dt());
+            let frame = self.stage.frame(&mut self.view.renderer, alpha, self.orbit.camera());
             self.view.draw(&frame);
         }
         let whole = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1.0, 1.0));

@@ -1,7 +1,7 @@
 //! The window: a picture of the scene that can be looked around in and grabbed, and a panel beside it.
 //!
 //! What is shown and stepped is a [`Stage`]; the window knows neither physics nor files. Left drag grabs a body
-//! or, with control, its skin, and turns the view where nothing is grabbed; right drag turns, middle drag or shift and drag moves, the wheel comes
+//! or, with control, its skin, and turns the view where nothing is grabbed; a click touches what moves by itself; right drag turns, middle drag or shift and drag moves, the wheel comes
 //! nearer. Space pauses, `.` or `N` makes one step, `R` restarts, `C` returns the camera.
 
 mod app;

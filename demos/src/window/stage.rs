@@ -20,15 +20,17 @@ pub trait Stage {
     fn step(&mut self);
     /// The camera that suits the scene.
     fn camera(&self) -> Camera;
-    /// Describes the picture between the last two steps (`alpha` is one at the last), with meshes of the renderer. The
-    /// camera of the result is replaced by the window's. After a change of scene, meshes have to be made anew.
-    fn frame(&mut self, renderer: &mut Renderer, alpha: f32) -> Frame;
+    /// Describes the picture between the last two steps (`alpha` is one at the last) as a camera sees it, with meshes of the
+    /// renderer. After a change of scene, meshes have to be made anew.
+    fn frame(&mut self, renderer: &mut Renderer, alpha: f32, camera: Camera) -> Frame;
     /// Grabs what a ray meets first, if it can be moved; the `other` way than usual if so asked.
     fn grab(&mut self, origin: Vec3, direction: Vec3, other: bool) -> bool;
     /// Moves what is grabbed so that it stays under the ray.
     fn drag(&mut self, origin: Vec3, direction: Vec3);
     /// Lets go.
     fn release(&mut self);
+    /// Touches what a ray meets first: a click.
+    fn touch(&mut self, origin: Vec3, direction: Vec3);
     /// Settings and figures of the scene.
     fn panel(&mut self, ui: &mut egui::Ui);
 }

@@ -4,4 +4,5 @@ mod bad_input;
 mod common;
 mod headless;
 mod pictures;
+mod soft_bodies;
 mod threads;

@@ -112,7 +112,7 @@ pub fn worm_bend() -> RigDescription {
 
 /// Touched, the snail draws in (figure 7). Its shell is a rigid thing on its back.
 pub fn snail() -> RigDescription {
-    let mut rig = rig_of("snail", false);
+    let mut rig = rig_of("snail", true);
     rig.stiffness = Some(0.7);
     rig.colour = Some([0.62, 0.5, 0.33]);
     rig.stimulus = Some(StimulusDescription {

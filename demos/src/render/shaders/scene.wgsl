@@ -17,7 +17,7 @@ fn world_position(instance: u32, p: vec4f) -> vec3f {
     return (instances[instance].model * vec4f(p.xyz, 1.0)).xyz;
 }
 
-fn world_normal(instance: u32, n: vec4f) -> vec3f {
+fn world_normal(instance: u32, n: vec3f) -> vec3f {
     return mat3x3f(instances[instance].normal_x.xyz, instances[instance].normal_y.xyz,
-                   instances[instance].normal_z.xyz) * n.xyz;
+                   instances[instance].normal_z.xyz) * n;
 }

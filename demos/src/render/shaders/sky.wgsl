@@ -3,7 +3,8 @@
 // Radiance that comes from direction d.
 fn sky(d: vec3f) -> vec3f {
     let t = smoothstep(0.0, 0.75, d.y);
-    return mix(view.horizon.rgb, view.zenith.rgb, t);
+    let below = view.horizon.w * smoothstep(0.0, -0.6, d.y);
+    return mix(mix(view.horizon.rgb, view.bounce.rgb, below), view.zenith.rgb, t);
 }
 
 // What a surface of the given roughness mirrors from direction d.

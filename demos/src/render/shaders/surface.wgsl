@@ -5,18 +5,28 @@ struct Vertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) @interpolate(flat) instance: u32,
+    @location(3) paint: vec4f,     // premultiplied
+}
+
+// Paint over the colour of the item: roots of the colour's parts and opacity, a byte each. Mirrors `paint::Paint`.
+fn unpacked(paint: u32) -> vec4f {
+    let c = unpack4x8unorm(paint);
+    return vec4f(c.rgb * c.rgb * c.a, c.a);
 }
 
 @vertex
-fn surface_vertex(@builtin(instance_index) instance: u32, @location(0) p: vec4f, @location(1) n: vec4f) -> Vertex {
+fn surface_vertex(@builtin(instance_index) instance: u32, @location(0) p: vec4f, @location(1) n: vec3f,
+                  @location(2) paint: u32) -> Vertex {
     let world = world_position(instance, p);
-    return Vertex(view.view_proj * vec4f(world, 1.0), world, world_normal(instance, n), instance);
+    return Vertex(view.view_proj * vec4f(world, 1.0), world, world_normal(instance, n), instance,
+                  unpacked(paint));
 }
 
 fn surface_of(in: Vertex, front: bool) -> Surface {
     let item = instances[in.instance];
     let n = normalize(in.normal);
-    return Surface(in.position, select(-n, n, front), item.colour.rgb, roughened(item.surface.x, n), item.surface.y,
+    let colour = item.colour.rgb * (1.0 - in.paint.a) + in.paint.rgb;
+    return Surface(in.position, select(-n, n, front), colour, roughened(item.surface.x, n), item.surface.y,
                    item.surface.z, item.surface.w, item.depth.x);
 }
 

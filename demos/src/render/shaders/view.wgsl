@@ -12,7 +12,7 @@ struct View {
     light_x: vec4f,        // axes of the shadow map in the world, w: half extent in metres
     light_y: vec4f,        // w: depth range in metres
     zenith: vec4f,         // w: share of the sky's light that reaches surfaces
-    horizon: vec4f,
+    horizon: vec4f,        // w: share of the light from below in the background straight down
     bounce: vec4f,
     ground: vec4f,         // height, grid strength, fog start, fog length
     ground_colour: vec4f,
