@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 
+use crate::bench::BenchArgs;
+
 /// Elastic bodies on top of a rigid world: plays scenes in a window, or writes their pictures and figures.
 #[derive(Debug, Parser)]
 #[command(name = "pliant", version, about)]
@@ -16,6 +18,8 @@ pub struct Args {
 pub enum Command {
     /// Plays a scene in a window, or writes its files where there is no display.
     Run(RunArgs),
+    /// Measures bodies that move by themselves in the six scenes of the ProcDef paper's Table 1.
+    Bench(BenchArgs),
 }
 
 /// How a scene is run.
@@ -98,7 +102,7 @@ mod tests {
         let words = ["pliant", "run", "tower"].iter().chain(words);
         Args::try_parse_from(words).map(|args| match args.command {
             Some(Command::Run(run)) => run,
-            None => RunArgs::of("nothing"),
+            _ => RunArgs::of("nothing"),
         })
     }
 
