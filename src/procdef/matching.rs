@@ -52,7 +52,8 @@ impl Matching {
         }
         for (block, vertices) in self.local.iter_mut().zip(regions.vertex.chunks(LANES)) {
             // Nine columns of eight lanes; lanes without a vertex repeat the first one.
-            let at = |lane: usize| local[vertices[if lane < vertices.len() { lane } else { 0 }] as usize].to_cols_array();
+            let at =
+                |lane: usize| local[vertices[if lane < vertices.len() { lane } else { 0 }] as usize].to_cols_array();
             let [mut low, mut high, mut last] = [[f32x4::ZERO; LANES], [f32x4::ZERO; LANES], [f32x4::ZERO; LANES]];
             for lane in 0..LANES {
                 let [a, b, c, d, e, f, g, h, i] = at(lane);
