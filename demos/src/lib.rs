@@ -1,5 +1,6 @@
-//! The demos of pliant: scenes, drawing, the window and the files that the program writes.
+//! The demos of pliant: scenes, measurements, drawing, the window and the files that the program writes.
 
+pub mod bench;
 pub mod modeller;
 pub mod output;
 pub mod program;

@@ -77,8 +77,7 @@ impl Probes {
             inside.truncate(PROBES_SPREAD);
             inside
         };
-        let missed: Vec<Vec<(Outcome, Penetration)>> =
-            contacts.par_iter().zip(all).enumerate().map(missed).collect();
+        let missed: Vec<Vec<(Outcome, Penetration)>> = contacts.par_iter().zip(all).enumerate().map(missed).collect();
         let mut any = false;
         for (points, missed) in self.points.iter_mut().zip(missed) {
             for (_, missed) in missed {

@@ -50,4 +50,12 @@ pub enum GpuError {
         /// Vertices of the skin.
         skin: u32,
     },
+    /// Another number of positions than the body has vertices.
+    #[error("{given} positions for a body of {needed} vertices")]
+    BodyVertices {
+        /// Vertices of the body.
+        needed: usize,
+        /// Positions that were given.
+        given: usize,
+    },
 }

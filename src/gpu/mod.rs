@@ -4,9 +4,14 @@
 //! one pass that writes positions and normals into the buffers of a [`GpuBody`]. Nothing is read back. Device, queue and
 //! encoder are the caller's, and any renderer can bind the buffers.
 //!
+//! Skins that are embedded in the cells of bodies that move by themselves are deformed in two passes ([`EmbedPipeline`]); a frame
+//! uploads the positions of the body's vertices.
+//!
 //! The shaders are the twins of [`crate::field`] and [`crate::elastic`], function by function.
 
 mod body;
+mod embed_pipeline;
+mod embedded_skin;
 mod error;
 mod palette_bytes;
 mod pipeline;
@@ -14,7 +19,9 @@ mod shaders;
 mod skin;
 
 pub use body::GpuBody;
+pub use embed_pipeline::EmbedPipeline;
+pub use embedded_skin::{GpuEmbeddedBody, GpuEmbeddedSkin};
 pub use error::GpuError;
 pub use pipeline::DeformPipeline;
-pub use shaders::deform_shader;
+pub use shaders::{deform_shader, embed_shaders};
 pub use skin::GpuSkin;

@@ -44,3 +44,12 @@ pub fn deform_shader() -> String {
     }
     text
 }
+
+/// The shaders of embedded skins in WGSL, each with the name of its entry point, in the order in which they run.
+pub fn embed_shaders() -> [(&'static str, String); 2] {
+    [
+        ("vertex_gradients", include_str!("shaders/vertex_gradients.wgsl")),
+        ("embed_vertex", include_str!("shaders/embed_vertex.wgsl")),
+    ]
+    .map(|(name, text)| (name, format!("const WORKGROUP = {WORKGROUP}u;\n\n{text}")))
+}

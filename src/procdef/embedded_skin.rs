@@ -3,7 +3,7 @@
 //! A vertex is bound by its barycentric coordinates: `x = Σ bᵢ xᵢ` over the corners of its cell. Its normal is carried by the
 //! cofactors of the deformation gradient, `n ∝ cof(F) n⁰`, the inverse transpose but for its length, and without a division.
 //! The gradient is constant in a cell; it is averaged at the corners and blended by the same coordinates, so that
-//! normals do not jump from cell to cell.
+//! normals do not jump from cell to cell. `vertex_gradients.wgsl` and `embed_vertex.wgsl` are the twins of this file.
 
 use std::collections::HashMap;
 
@@ -41,17 +41,18 @@ pub struct SkinBinding {
 pub struct EmbeddedSkin {
     skin: TriangleMesh,
     bindings: Vec<SkinBinding>,
-    cells: Vec<RestCell>,
+    pub(crate) cells: Vec<RestCell>,
     /// One over the volume of the cells around each vertex of the body.
-    inverse_volumes: Vec<f32>,
+    pub(crate) inverse_volumes: Vec<f32>,
 }
 
+/// A cell at rest.
 #[derive(Clone, Copy, Debug)]
-struct RestCell {
-    vertices: [u32; 4],
+pub(crate) struct RestCell {
+    pub vertices: [u32; 4],
     /// The inverse of the matrix of the edges from the first corner, at rest.
-    inverse: Mat3,
-    volume: f32,
+    pub inverse: Mat3,
+    pub volume: f32,
 }
 
 /// A skin in a deformed state, and the buffers to get there.
@@ -121,29 +122,38 @@ impl EmbeddedSkin {
         if positions.len() != expected {
             return Err(TetrahedralError::LengthMismatch { given: positions.len(), expected });
         }
-        out.gradients.clear();
-        out.gradients.resize(expected, Mat3::ZERO);
-        for cell in &self.cells {
-            let gradient = edges(positions, cell.vertices) * cell.inverse * cell.volume;
-            cell.vertices.iter().for_each(|&v| out.gradients[v as usize] += gradient);
-        }
-        out.gradients.iter_mut().zip(&self.inverse_volumes).for_each(|(g, v)| *g *= *v);
+        self.vertex_gradients(positions, &mut out.gradients);
         let gradients = &out.gradients;
         out.positions.resize(self.bindings.len(), Vec3::ZERO);
         out.normals.resize(self.bindings.len(), Vec3::ZERO);
         (&mut out.positions, &mut out.normals, &self.bindings, &self.skin.normals).into_par_iter().for_each(
             |(position, normal, binding, &rest)| {
-                let (mut x, mut f) = (Vec3::ZERO, Mat3::ZERO);
-                for (&v, w) in binding.vertices.iter().zip(binding.weights) {
-                    x += positions[v as usize] * w;
-                    f += gradients[v as usize] * w;
-                }
-                *position = x;
-                *normal = (cofactors(f) * rest).normalize_or(rest);
+                (*position, *normal) = embed_vertex(binding, rest, positions, gradients);
             },
         );
         Ok(())
     }
+
+    /// The deformation gradient at each vertex of the body: the mean of those of its cells, weighted by their volumes.
+    fn vertex_gradients(&self, positions: &[Vec3], gradients: &mut Vec<Mat3>) {
+        gradients.clear();
+        gradients.resize(self.inverse_volumes.len(), Mat3::ZERO);
+        for cell in &self.cells {
+            let gradient = edges(positions, cell.vertices) * cell.inverse * cell.volume;
+            cell.vertices.iter().for_each(|&v| gradients[v as usize] += gradient);
+        }
+        gradients.iter_mut().zip(&self.inverse_volumes).for_each(|(g, v)| *g *= *v);
+    }
+}
+
+/// Position and normal of a vertex of the skin whose normal at rest is `rest`.
+fn embed_vertex(binding: &SkinBinding, rest: Vec3, positions: &[Vec3], gradients: &[Mat3]) -> (Vec3, Vec3) {
+    let (mut x, mut f) = (Vec3::ZERO, Mat3::ZERO);
+    for (&v, w) in binding.vertices.iter().zip(binding.weights) {
+        x += positions[v as usize] * w;
+        f += gradients[v as usize] * w;
+    }
+    (x, (cofactors(f) * rest).normalize_or(rest))
 }
 
 /// The edges of a cell from its first corner, as columns.

@@ -51,17 +51,29 @@ impl Matching {
             return;
         }
         for (block, vertices) in self.local.iter_mut().zip(regions.vertex.chunks(LANES)) {
-            let mut lanes = identity().map(|row| row.map(|v| v.to_array()));
-            for (lane, &v) in vertices.iter().enumerate() {
-                let t = local[v as usize];
-                let t = if t.is_finite() { t } else { Mat3::IDENTITY }.to_cols_array_2d();
-                for (row, values) in lanes.iter_mut().enumerate() {
-                    for (column, value) in values.iter_mut().enumerate() {
-                        value[lane] = t[column][row];
-                    }
-                }
+            // Nine columns of eight lanes; lanes without a vertex repeat the first one.
+            let at =
+                |lane: usize| local[vertices[if lane < vertices.len() { lane } else { 0 }] as usize].to_cols_array();
+            let [mut low, mut high, mut last] = [[f32x4::ZERO; LANES], [f32x4::ZERO; LANES], [f32x4::ZERO; LANES]];
+            for lane in 0..LANES {
+                let [a, b, c, d, e, f, g, h, i] = at(lane);
+                low[lane] = f32x4::new([a, b, c, d]);
+                high[lane] = f32x4::new([e, f, g, h]);
+                last[lane] = f32x4::new([i, 0.0, 0.0, 0.0]);
             }
-            *block = lanes.map(|row| row.map(f32x8::new));
+            let [xx, yx, zx, xy] = to_lanes(low);
+            let [yy, zy, xz, yz] = to_lanes(high);
+            let [zz, ..] = to_lanes(last);
+            let rows = [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]];
+            // A value times 0 is 0 only where it is finite.
+            let nothing = rows.iter().flatten().fold(f32x8::ZERO, |sum, v| sum + *v * f32x8::ZERO);
+            let finite = nothing.simd_eq(f32x8::ZERO);
+            *block = if finite.all() {
+                rows
+            } else {
+                let none = identity();
+                std::array::from_fn(|i| std::array::from_fn(|j| finite.bitselect(rows[i][j], none[i][j])))
+            };
         }
     }
 

@@ -46,7 +46,7 @@ pub use embedded_skin::{DeformedSkin, EmbeddedSkin, EmbeddingReport, SkinBinding
 pub use excitation::{excitation, excitation_colour};
 pub use geodesic::GeodesicMesh;
 pub use line_chart::{ChartError, ChartInterpolation, ChartPoint, LineChart};
-pub use model::{ProcDefModel, RigidAttachment};
+pub use model::{ContactKind, ProcDefModel, RigidAttachment};
 pub use motion::{CyclicMotion, Motion, MotionError, MotionFields, MotionRig};
 pub use orientation::{DirectionStroke, OrientationError, OrientationField};
 pub use paint::{Brush, Canvas, PaintError, STROKE_REACH};

@@ -21,6 +21,17 @@ pub struct RigidAttachment {
     pub hull: Vec<Vec3>,
 }
 
+/// Who finds and solves the contacts of a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactKind {
+    /// Rapier, between surfaces: exact, and dear where many bodies meet.
+    #[default]
+    Surfaces,
+    /// This crate, between vertices and what they meet: for crowds. The body's collider stays, for rays and the like, but
+    /// rapier lets it touch nothing, and it does not touch itself.
+    Vertices,
+}
+
 /// A kind of body: rest data, fields and charts, contacts, water, ground, attachments.
 #[derive(Clone, Debug)]
 pub struct ProcDefModel {
@@ -38,6 +49,8 @@ pub struct ProcDefModel {
     pub friction: f32,
     /// Whether the body touches itself.
     pub self_contact: bool,
+    /// Who makes its contacts.
+    pub contacts: ContactKind,
     /// When contacts are stimuli; never if there is none.
     pub trigger: Option<TriggerSettings>,
     /// What water does to the body; nothing if there is none.
@@ -61,6 +74,7 @@ impl ProcDefModel {
             volumes,
             friction: 0.5,
             self_contact: false,
+            contacts: ContactKind::default(),
             trigger: None,
             water: None,
             ground: None,
@@ -98,6 +112,7 @@ impl ProcDefModel {
         if let Some(contact) = description.contact {
             model.friction = contact.friction;
             model.self_contact = contact.self_contact;
+            model.contacts = if contact.vertices { ContactKind::Vertices } else { ContactKind::Surfaces };
         }
         model.trigger = file.built.trigger;
         model.water = description.water;

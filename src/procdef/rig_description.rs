@@ -179,6 +179,9 @@ pub struct ContactDescription {
     /// Whether the body touches itself.
     #[serde(default, skip_serializing_if = "is_false")]
     pub self_contact: bool,
+    /// Whether its contacts are those of its vertices, made for crowds, instead of rapier's between surfaces.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub vertices: bool,
 }
 
 /// What water does to the body.
@@ -205,6 +208,13 @@ pub struct GroundDescription {
     pub backward: f32,
     /// Coulomb coefficient across it.
     pub sideways: f32,
+}
+
+impl GroundDescription {
+    /// The least of the coefficients: what holds in all directions.
+    pub fn least(&self) -> f32 {
+        self.forward.min(self.backward).min(self.sideways)
+    }
 }
 
 /// A rigid thing that the body is attached to.

@@ -4,6 +4,7 @@ mod coherence;
 mod deformation_world;
 mod encounter;
 mod meetings;
+mod procdef_meeting;
 mod procdef_report;
 mod procdef_stages;
 mod procdef_view;

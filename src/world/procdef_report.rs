@@ -1,6 +1,9 @@
 //! What a step did to the bodies that move by themselves.
 
+use rapier3d::geometry::ColliderHandle;
+
 use super::ProcDefHandle;
+use crate::coupling::ObstacleError;
 use crate::coupling::procdef::ParticleFault;
 use crate::math::Vec3;
 
@@ -13,6 +16,9 @@ pub struct ProcDefBodyReport {
     pub felt: f32,
     /// Where a contact was a stimulus, in the frame of the mesh at rest.
     pub touched: Option<Vec3>,
+    /// How deep its deepest vertex was in something, with the gaps that are kept, in metres: of bodies whose contacts are those
+    /// of vertices, and what these bodies meet.
+    pub deepest: f32,
     /// How many vertices touch fixed bodies. Counted only where the body has a trigger or directed friction.
     pub on_ground: usize,
 }
@@ -22,7 +28,7 @@ pub struct ProcDefBodyReport {
 pub struct ProcDefTimes {
     /// Reading and writing rapier's particles.
     pub exchange: f32,
-    /// Contacts felt and ground found.
+    /// Contacts felt, ground found, and contacts of vertices.
     pub contact: f32,
     /// Charts, local transformations, matching, water, ground friction and grips, on all cores.
     pub drive: f32,
@@ -33,6 +39,8 @@ pub struct ProcDefTimes {
 pub struct ProcDefStepReport {
     /// One entry a body, in the order of the handles.
     pub bodies: Vec<(ProcDefHandle, ProcDefBodyReport)>,
+    /// Colliders that vertices cannot meet, and why.
+    pub refused: Vec<(ColliderHandle, ObstacleError)>,
     /// Time taken.
     pub times: ProcDefTimes,
 }

@@ -13,11 +13,12 @@ use crate::coupling::procdef::{
     write_velocities,
 };
 use crate::math::Vec3;
+use crate::procdef::ContactKind;
 
 /// What is found out about one body in a step.
-struct Visit {
-    index: Index,
-    report: ProcDefBodyReport,
+pub(super) struct Visit {
+    pub index: Index,
+    pub report: ProcDefBodyReport,
     ground: Vec<GroundContact>,
 }
 
@@ -37,6 +38,10 @@ impl ProcDefWorld {
         let clock = Instant::now();
         self.drive_bodies(&visits, rapier.gravity, rapier.dt);
         report.times.drive = milliseconds(clock);
+
+        let clock = Instant::now();
+        report.refused = self.let_vertices_meet(&mut visits, rapier);
+        report.times.contact += milliseconds(clock);
 
         let clock = Instant::now();
         self.write_bodies(&mut visits, rapier);
@@ -72,6 +77,11 @@ impl ProcDefWorld {
     fn find_ground(&self, visits: &mut [Visit], rapier: &ProcDefView<'_>) {
         for visit in visits.iter_mut().filter(|visit| visit.report.frozen.is_none()) {
             let Some(entry) = self.entries.get(visit.index) else { continue };
+            if entry.model.contacts == ContactKind::Vertices {
+                visit.ground.clone_from(&entry.meeting.ground);
+                visit.report.on_ground = visit.ground.len();
+                continue;
+            }
             let Some(soft) = rapier.soft_bodies.get(entry.link.soft_body) else { continue };
             if entry.trigger.is_some() || entry.directions.is_some() {
                 let boundary = &entry.model.boundary;
@@ -87,9 +97,12 @@ impl ProcDefWorld {
             let Some(entry) = self.entries.get_mut(visit.index) else { continue };
             let Some(trigger) = &mut entry.trigger else { continue };
             let mut ignored = vec![false; entry.impulses.len()];
-            for &v in visit.ground.iter().map(|c| &c.vertex).chain(&entry.attached) {
-                ignored[v as usize] = true;
+            entry.attached.iter().for_each(|&v| ignored[v as usize] = true);
+            if entry.model.contacts == ContactKind::Surfaces {
+                // Rapier does not tell how much of an impulse is the ground's.
+                visit.ground.iter().for_each(|contact| ignored[contact.vertex as usize] = true);
             }
+            entry.impulses.iter_mut().zip(&entry.meeting.felt).for_each(|(all, own)| *all += *own);
             let felt = FeltContacts::of(&entry.impulses, &ignored);
             visit.report.felt = felt.impulse;
             if trigger.step(felt.impulse, dt)
@@ -130,6 +143,12 @@ impl ProcDefWorld {
 }
 
 impl ProcDefEntry {
+    /// Whether its cycle runs backwards.
+    pub(super) fn is_turned(&self) -> bool {
+        let speed = self.model.motion.cyclic().map_or(1.0, |cyclic| cyclic.speed);
+        self.motion.pace * speed < 0.0
+    }
+
     /// One body's share of the step.
     fn drive(&mut self, water: &[WaterRegion], ground: &[GroundContact], gravity: Vec3, dt: f32) {
         self.motion.advance(&self.model.motion, dt);
@@ -138,9 +157,8 @@ impl ProcDefEntry {
         if !water.is_empty() {
             act_of_water(&self.model, water, gravity, dt, &mut self.body);
         }
-        if let Some(directions) = &self.directions {
-            let speed = self.model.motion.cyclic().map_or(1.0, |cyclic| cyclic.speed);
-            let turned = self.motion.pace * speed < 0.0;
+        if let Some(directions) = self.directions.as_ref().filter(|_| self.model.contacts == ContactKind::Surfaces) {
+            let turned = self.is_turned();
             directions.brake(&mut self.body, ground, &self.impulses, gravity * dt, turned);
         }
         if let Some(grip) = &self.grip {

@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use rapier3d::data::arena::{Arena, Index};
 use rapier3d::dynamics::{RigidBodyHandle, SoftBodyHandle};
+use rapier3d::geometry::InteractionGroups;
 use rapier3d::pipeline::PhysicsWorld;
 
 use super::procdef_report::ProcDefStepReport;
 use super::procdef_view::ProcDefView;
+use crate::coupling::PartCache;
 use crate::coupling::procdef::{
-    Grip, GroundDirections, ProcDefSets, ProcDefStart, WaterRegion, attach_to, spawn_attachment, spawn_soft_body,
+    ContactSurface, Grip, GroundDirections, Meeting, ProcDefSets, ProcDefStart, WaterRegion, attach_to,
+    spawn_attachment, spawn_soft_body,
 };
 use crate::math::{Mat3, Vec3};
 use crate::procdef::{ContactTrigger, Motion, ProcDefBody, ProcDefModel};
@@ -63,6 +66,12 @@ pub(super) struct ProcDefEntry {
     pub impulses: Vec<Vec3>,
     /// Local transformations of the step.
     pub local: Vec<Mat3>,
+    /// The boundary, as vertices of other bodies meet it.
+    pub surface: Arc<ContactSurface>,
+    /// What it collides with.
+    pub groups: InteractionGroups,
+    /// What the last meeting of vertices did.
+    pub meeting: Meeting,
 }
 
 /// All bodies of a rapier world that move by themselves.
@@ -76,6 +85,8 @@ pub struct ProcDefWorld {
     pub water: Vec<WaterRegion>,
     pub(super) entries: Arena<ProcDefEntry>,
     pub(super) report: ProcDefStepReport,
+    /// The convex parts of colliders that vertices met.
+    pub(super) parts: PartCache,
 }
 
 impl ProcDefWorld {
@@ -99,6 +110,10 @@ impl ProcDefWorld {
         body.settings = model.settings;
         body.velocities_mut().fill(start.velocity);
         let twin = self.entries.iter().find(|(_, e)| Arc::ptr_eq(&e.model, &model));
+        let surface = match twin {
+            Some((_, twin)) => twin.surface.clone(),
+            None => Arc::new(ContactSurface::new(model.rig.mesh(), model.boundary_edge())),
+        };
         let directions = match twin {
             Some((_, twin)) => twin.directions.clone(),
             None => model.ground.map(|g| Arc::new(GroundDirections::new(model.rig.mesh(), g))),
@@ -115,6 +130,9 @@ impl ProcDefWorld {
             written: Vec::new(),
             impulses: Vec::new(),
             local: Vec::new(),
+            surface,
+            groups: start.groups,
+            meeting: Meeting::default(),
             model,
         }))
     }

@@ -67,3 +67,20 @@ fn a_worm_without_directed_friction_goes_nowhere_near_as_far() {
     let way = (scene.centre(handle) - start).x.abs();
     assert!(way < 0.5 * extents(&worm.rig.mesh().positions).x, "{way}");
 }
+
+#[test]
+fn a_jellyfish_swims_without_substeps_too() {
+    for name in ["jellyfish", "small_jellyfish"] {
+        let jellyfish = model(name);
+        let mut scene = Scene::new(9.81, 1);
+        scene.ocean();
+        let handle = scene.insert(&jellyfish, Vec3::ZERO);
+        let rest = extents(&jellyfish.rig.mesh().positions);
+        scene.run(8.0);
+        let now = extents(scene.body(handle).positions());
+        let fastest = scene.body(handle).velocities().iter().map(|v| v.length()).fold(0.0, f32::max);
+        assert!(now.max_element() < 1.3 * rest.max_element(), "{name} keeps its size: {now} of {rest}");
+        assert!(fastest < 20.0 * rest.max_element(), "{name}: {fastest} m/s");
+        assert!(scene.centre(handle).y > rest.y, "{name} swims: {}", scene.centre(handle));
+    }
+}

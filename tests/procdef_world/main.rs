@@ -6,4 +6,5 @@ mod contacts;
 mod crowds;
 mod heart;
 mod scene;
+mod vertices;
 mod world;

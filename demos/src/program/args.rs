@@ -6,6 +6,7 @@ use clap::{Parser, Subcommand};
 
 use super::fields::Field;
 use super::section::Cut;
+use crate::bench::BenchArgs;
 
 /// Elastic bodies on top of a rigid world: plays scenes in a window, or writes their pictures and figures.
 #[derive(Debug, Parser)]
@@ -19,6 +20,8 @@ pub struct Args {
 pub enum Command {
     /// Plays a scene in a window, or writes its files where there is no display.
     Run(RunArgs),
+    /// Measures bodies that move by themselves in the six scenes of the ProcDef paper's Table 1.
+    Bench(BenchArgs),
 }
 
 /// How a scene is run.
@@ -113,7 +116,7 @@ mod tests {
         let words = ["pliant", "run", "tower"].iter().chain(words);
         Args::try_parse_from(words).map(|args| match args.command {
             Some(Command::Run(run)) => run,
-            None => RunArgs::of("nothing"),
+            _ => RunArgs::of("nothing"),
         })
     }
 

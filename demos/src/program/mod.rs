@@ -56,6 +56,7 @@ fn start(args: Args) -> anyhow::Result<()> {
     match args.command {
         Some(Command::Run(run)) if run.is_headless() || !display_available() => headless::run(&run),
         Some(Command::Run(run)) => show(&run),
+        Some(Command::Bench(bench)) => crate::bench::run(&bench),
         None if display_available() => show(&RunArgs::of(FIRST_SCENE)),
         None => {
             let scenes = scene_names().join(", ");

@@ -143,11 +143,11 @@ impl Limits {
             // A bean is cut in two by a spinning bar.
             "wires" => Self { depth: 0.01, piercing: 0.03, gap: 0.23, coherence: 42.0, many_passes: 0.04, ..Self::AIM },
             // Bodies without room: a bean under a ball in a wedge, soft balls under four others, a head on spikes.
-            "spikes" => Self { depth: 0.004, piercing: 0.045, gap: 0.12, coherence: 75.0, many_passes: 0.17, ..Self::AIM },
-            "corners" => Self { gap: 0.045, pairs: 1.3, coherence: 470.0, many_passes: 0.05, ..Self::AIM },
-            "funnel" => {
-                Self { depth: 0.15, piercing: 0.15, gap: 0.4, pairs: 0.17, coherence: 70.0, many_passes: 0.07 }
+            "spikes" => {
+                Self { depth: 0.004, piercing: 0.045, gap: 0.12, coherence: 75.0, many_passes: 0.17, ..Self::AIM }
             }
+            "corners" => Self { gap: 0.045, pairs: 1.3, coherence: 470.0, many_passes: 0.05, ..Self::AIM },
+            "funnel" => Self { depth: 0.15, piercing: 0.15, gap: 0.4, pairs: 0.17, coherence: 70.0, many_passes: 0.07 },
             "heap" => {
                 Self { depth: 1.1, piercing: 1.1, gap: 0.05, pairs: f32::INFINITY, coherence: 24.0, many_passes: 0.45 }
             }

@@ -43,6 +43,15 @@ impl GroundDirections {
         edges(positions, &cell) * direction
     }
 
+    /// The coefficients ahead, back and sideways on a floor that allows `least` in all directions; `turned` exchanges the
+    /// first two.
+    pub fn coefficients(&self, least: f32, turned: bool) -> [f32; 3] {
+        let ground = &self.ground;
+        let lowest = ground.least();
+        let [ahead, back] = if turned { [ground.backward, ground.forward] } else { [ground.forward, ground.backward] };
+        [ahead, back, ground.sideways].map(|c| c - lowest + least)
+    }
+
     /// Changes the velocities of the vertices on the ground. `impulses` are those of rapier's last step, `gravity_step` what
     /// gravity adds in the next one. `turned` exchanges forward and backward.
     pub fn brake(
@@ -54,7 +63,7 @@ impl GroundDirections {
         turned: bool,
     ) {
         let ground = &self.ground;
-        let least = ground.forward.min(ground.backward).min(ground.sideways);
+        let least = ground.least();
         for contact in contacts {
             let v = contact.vertex as usize;
             let mass = body.rig().masses()[v];
@@ -74,7 +83,7 @@ impl GroundDirections {
 
 /// The part of a sliding velocity that friction takes: all of it within the ellipse of these half axes, else shortened to it. An
 /// axis of length 0 takes nothing along itself.
-fn within_ellipse(slide: [f32; 2], half_axes: [f32; 2]) -> [f32; 2] {
+pub(super) fn within_ellipse(slide: [f32; 2], half_axes: [f32; 2]) -> [f32; 2] {
     let slide = [0, 1].map(|k| if half_axes[k] > 0.0 { slide[k] } else { 0.0 });
     let parts = [0, 1].map(|k| if half_axes[k] > 0.0 { slide[k] / half_axes[k] } else { 0.0 });
     let out = parts[0].hypot(parts[1]);

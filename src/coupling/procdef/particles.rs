@@ -3,14 +3,13 @@
 
 use rapier3d::dynamics::{ImpulseJointSet, RigidBodySet, SoftBody, SoftBodyBuilder, SoftBodyHandle, SoftBodySet};
 use rapier3d::geometry::{ColliderBuilder, ColliderSet, InteractionGroups};
+use rapier3d::parry::shape::TriMeshFlags;
 use rapier3d::pipeline::PhysicsWorld;
 use rapier3d::prelude::CoefficientCombineRule;
 
+use super::meeting::SKIN;
 use crate::math::{Pose, Vec3};
-use crate::procdef::{ProcDefBody, ProcDefModel};
-
-/// Contacts keep this part of a boundary edge between the surfaces: rapier's contact skin.
-const SKIN: f32 = 0.1;
+use crate::procdef::{ContactKind, ProcDefBody, ProcDefModel};
 
 /// What inserting a body needs of rapier.
 pub struct ProcDefSets<'a> {
@@ -70,8 +69,10 @@ pub enum ParticleFault {
 /// Inserts the particles of a body. They never sleep: who sleeps does not move by itself.
 pub fn spawn_soft_body(model: &ProcDefModel, start: &ProcDefStart, sets: &mut ProcDefSets<'_>) -> SoftBodyHandle {
     let positions = model.rig.mesh().positions.iter().map(|&x| start.pose * x).collect();
-    let friction = model.ground.map_or(model.friction, |g| g.forward.min(g.backward).min(g.sideways));
-    let mut collider = ColliderBuilder::ball(1.0).friction(friction).collision_groups(start.groups);
+    let friction = model.ground.map_or(model.friction, |g| g.least());
+    let own_contacts = model.contacts == ContactKind::Vertices;
+    let groups = if own_contacts { InteractionGroups::none() } else { start.groups };
+    let mut collider = ColliderBuilder::ball(1.0).friction(friction).collision_groups(groups);
     if model.ground.is_some() {
         // The least friction of all directions is rapier's, the rest is added where the ground is fixed.
         collider = collider.friction_combine_rule(CoefficientCombineRule::Min);
@@ -80,10 +81,21 @@ pub fn spawn_soft_body(model: &ProcDefModel, start: &ProcDefStart, sets: &mut Pr
         .masses(model.rig.masses().to_vec())
         .surface(model.boundary.clone())
         .surface_collider(collider)
-        .self_contacts(model.self_contact)
+        .self_contacts(model.self_contact && !own_contacts)
         .particle_radius(SKIN * model.boundary_edge())
         .can_sleep(false);
     let handle = sets.soft_bodies.insert(builder, sets.bodies, sets.colliders);
+    if own_contacts && let Some(soft) = sets.soft_bodies.get(handle) {
+        // Which side of a triangle is out is asked for by contacts alone; rapier need not find the normals in each step.
+        for mesh in soft.meshes() {
+            let shape = sets.colliders.get_mut(mesh.collider()).map(|collider| collider.shape_mut());
+            if let Some(surface) = shape.and_then(|shape| shape.as_trimesh_mut()) {
+                let flags = surface.flags() & !TriMeshFlags::ORIENTED;
+                // Without the flag the shape asks for less than before: there is nothing that could fail.
+                let _ = surface.set_flags(flags);
+            }
+        }
+    }
     if let Some(soft) = sets.soft_bodies.get_mut(handle) {
         (0..soft.num_particles()).for_each(|i| soft.set_particle_velocity(i, start.velocity));
     }

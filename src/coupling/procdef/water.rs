@@ -2,8 +2,11 @@
 //!
 //! A triangle of area `A` and outward normal `n` that moves at `u` relative to the water feels `-½ ρ A c_n (u·n)² n` when it
 //! moves outwards (water is pushed by the side that comes towards it, so a thin plate has the drag coefficient `c_n` of tables), and
-//! `-½ ρ A c_t |u_t| u_t` in its plane. Both are stepped implicitly: drag slows a triangle, and never turns it back. A fast
-//! stroke and a slow return push differently, which is how a jellyfish swims.
+//! `-½ ρ A c_t |u_t| u_t` in its plane. A fast stroke and a slow return push differently, which is how a jellyfish swims.
+//!
+//! Each corner feels a third of it, at its own velocity and stepped implicitly: drag slows a vertex, and never turns it back.
+//! (With the mean velocity of the triangle and a third of its impulse for each corner, a light corner beside heavy ones is thrown
+//! back. No energy comes in by that, but it then moves against the goals that pull at it, farther in each step.)
 
 use crate::math::Vec3;
 use crate::procdef::{ProcDefBody, ProcDefModel, WaterDescription};
@@ -43,16 +46,14 @@ pub fn act_of_water(model: &ProcDefModel, regions: &[WaterRegion], gravity: Vec3
         let normal = (b - a).cross(c - a);
         let area = normal.length() / 2.0;
         let normal = normal.normalize_or_zero();
-        let [p, q, r] = at.map(|v| body.velocities()[v]);
-        // A third of the impulse on each corner. With it the mean of their velocities changes as that of one mass, and no energy
-        // comes in, however different the corners' masses are.
-        let mass = 9.0 / at.iter().map(|&v| 1.0 / masses[v]).sum::<f32>();
-        let change = drag(water, (p + q + r) / 3.0 - region.flow, normal, area * h / mass);
-        at.iter().for_each(|&v| body.velocities_mut()[v] += change * (mass / (3.0 * masses[v])));
+        for v in at {
+            let change = drag(water, body.velocities()[v] - region.flow, normal, area / 3.0 * h / masses[v]);
+            body.velocities_mut()[v] += change;
+        }
     }
 }
 
-/// The change of the velocity `u` of a triangle relative to the water, `exposure` its area times the time step over its mass.
+/// The change of the velocity `u` relative to the water of a piece of surface, `exposure` its area times the time step over its mass.
 fn drag(water: &WaterDescription, u: Vec3, normal: Vec3, exposure: f32) -> Vec3 {
     let outward = u.dot(normal);
     let tangential = u - normal * outward;

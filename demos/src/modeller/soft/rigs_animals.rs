@@ -26,7 +26,7 @@ pub fn jellyfish(name: &str) -> RigDescription {
         ..ChartsDescription::default()
     });
     rig.stimulus = Some(StimulusDescription { speed: 2.0, damping: 2.0, ..StimulusDescription::default() });
-    rig.contact = Some(ContactDescription { friction: 0.2, self_contact: false });
+    rig.contact = Some(ContactDescription { friction: 0.2, vertices: name.starts_with("small"), ..Default::default() });
     rig.water = Some(WaterDescription { density: 1000.0, normal_drag: 1.2, tangential_drag: 0.03 });
     rig.layer =
         vec![region(0.0, jelly::in_wall(0.4, 0.3, 1.0), 30.0), region(1.0, jelly::in_wall(0.5, 0.3, 0.0), 30.0)];
@@ -67,7 +67,7 @@ pub fn worm(name: &str, half: f32) -> RigDescription {
         ..ChartsDescription::default()
     });
     rig.stimulus = Some(StimulusDescription { speed: 1.5, damping: 3.0, ..StimulusDescription::default() });
-    rig.contact = Some(ContactDescription { friction: 0.6, self_contact: false });
+    rig.contact = Some(ContactDescription { friction: 0.6, vertices: short, ..Default::default() });
     rig.ground = Some(GroundDescription { direction: [1.0, 0.0, 0.0], forward: 0.1, backward: 1.0, sideways: 0.8 });
     rig.layer = round_layers(half, worms::LONG.radius);
     rig.direction = vec![along(None, line(steps(-0.9 * half, 0.9 * half, 2).map(|x| Vec3::X * x)))];
@@ -129,7 +129,7 @@ pub fn snail() -> RigDescription {
             ..ChartsDescription::default()
         }),
     });
-    rig.contact = Some(ContactDescription { friction: 0.9, self_contact: false });
+    rig.contact = Some(ContactDescription { friction: 0.9, ..Default::default() });
     let spine = |u: f32, up: f32| body::middle(u) + Vec3::Y * up;
     rig.layer = vec![region(0.0, Vec3::new(0.1, 0.3, 0.02), 50.0)];
     for u in steps(0.15, 0.9, 7) {

@@ -14,7 +14,7 @@ fn bar() -> RigDescription {
     let mut rig = rig_of("bar", false);
     rig.iterations = Some(6);
     rig.colour = Some([0.5, 0.5, 0.52]);
-    rig.contact = Some(ContactDescription { friction: 0.5, self_contact: false });
+    rig.contact = Some(ContactDescription { friction: 0.5, ..Default::default() });
     let half = 0.5 * THICKNESS;
     rig.layer = vec![region(0.0, Vec3::new(0.03, half, 0.02), 20.0), region(1.0, Vec3::new(0.03, -half, 0.02), 20.0)];
     rig.direction = vec![along(None, line([Vec3::X * -0.45 * LENGTH, Vec3::X * 0.45 * LENGTH]))];
@@ -60,7 +60,7 @@ pub fn heart() -> RigDescription {
     let mut rig = rig_of("heart", true);
     rig.iterations = Some(6);
     rig.colour = Some([0.55, 0.12, 0.1]);
-    rig.contact = Some(ContactDescription { friction: 0.5, self_contact: false });
+    rig.contact = Some(ContactDescription { friction: 0.5, ..Default::default() });
     rig.charts = Some(ChartsDescription {
         cycle: 1.0,
         limit: Some(2.0),
@@ -112,7 +112,7 @@ pub fn bowel() -> RigDescription {
     let mut rig = rig_of("bowel", true);
     rig.iterations = Some(6);
     rig.colour = Some([0.75, 0.42, 0.36]);
-    rig.contact = Some(ContactDescription { friction: 0.2, self_contact: false });
+    rig.contact = Some(ContactDescription { friction: 0.2, ..Default::default() });
     rig.charts = Some(ChartsDescription {
         cycle: 3.0,
         limit: Some(2.0),

@@ -1,0 +1,75 @@
+//! The stage in which the vertices of bodies meet each other and rigid bodies.
+
+use rapier3d::dynamics::RigidBodyHandle;
+use rapier3d::geometry::ColliderHandle;
+use rapier3d::pipeline::QueryFilter;
+
+use super::procdef_stages::Visit;
+use super::procdef_view::ProcDefView;
+use super::procdef_world::ProcDefWorld;
+use crate::coupling::ObstacleError;
+use crate::coupling::procdef::{GroundFriction, MeetingBody, MeetingStep, Refused, meet};
+use crate::procdef::ContactKind;
+
+impl ProcDefWorld {
+    /// Bodies whose contacts are those of vertices are kept apart from all others, from rigid bodies and from the ground. The
+    /// colliders that they cannot meet.
+    pub(super) fn let_vertices_meet(
+        &mut self,
+        visits: &mut [Visit],
+        rapier: &mut ProcDefView<'_>,
+    ) -> Vec<(ColliderHandle, ObstacleError)> {
+        let kinds = self.entries.iter().map(|(_, entry)| entry.model.contacts);
+        if !(rapier.dt > 0.0 && rapier.dt.is_finite()) || kinds.into_iter().all(|kind| kind == ContactKind::Surfaces) {
+            return Vec::new();
+        }
+        self.parts.retain(|handle| rapier.colliders.get(handle).is_some());
+        let attached: Vec<Vec<RigidBodyHandle>> = self
+            .entries
+            .iter()
+            .map(|(_, entry)| {
+                let soft = rapier.soft_bodies.get(entry.link.soft_body);
+                let mut handles: Vec<_> = soft.iter().flat_map(|s| s.particle_attachments()).map(|a| a.body).collect();
+                handles.dedup();
+                handles
+            })
+            .collect();
+        let mut members = Vec::new();
+        let mut bodies = Vec::new();
+        for (place, ((_, entry), visit)) in self.entries.iter_mut().zip(visits.iter()).enumerate() {
+            // What is not finite must not reach the others.
+            if visit.report.frozen.is_some() || !entry.body.velocities().iter().all(|v| v.is_finite()) {
+                continue;
+            }
+            let turned = entry.is_turned();
+            let friction = entry.model.ground.map_or(entry.model.friction, |g| g.least());
+            members.push(place);
+            bodies.push(MeetingBody {
+                body: &mut entry.body,
+                surface: &entry.surface,
+                groups: entry.groups,
+                friction,
+                ground: entry.directions.as_deref().map(|directions| GroundFriction { directions, turned }),
+                attached: &attached[place],
+                own_contacts: entry.model.contacts == ContactKind::Vertices,
+            });
+        }
+        let step = MeetingStep { gravity: rapier.gravity, dt: rapier.dt, substeps: rapier.substeps };
+        let mut refused = Refused::new();
+        let query = rapier.broad_phase.as_query_pipeline(
+            rapier.narrow_phase.query_dispatcher(),
+            rapier.bodies,
+            rapier.colliders,
+            QueryFilter::default(),
+        );
+        let sets = (&*rapier.bodies, rapier.colliders);
+        let (meetings, rigid) = meet(&mut bodies, &step, query, sets, &mut self.parts, &mut refused);
+        rigid.iter().for_each(|copy| copy.write(rapier.bodies));
+        let mut meetings = members.into_iter().zip(meetings).peekable();
+        for (place, ((_, entry), visit)) in self.entries.iter_mut().zip(visits).enumerate() {
+            entry.meeting = meetings.next_if(|(member, _)| *member == place).map(|(_, m)| m).unwrap_or_default();
+            visit.report.deepest = entry.meeting.deepest;
+        }
+        refused.into_values().collect()
+    }
+}
