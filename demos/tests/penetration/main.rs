@@ -1,10 +1,12 @@
 //! Every shipped scene, run without a window: nothing is seen inside an obstacle, nothing pops.
 //!
 //! `PLIANT_SUITE=full` runs the scenes in their whole length, 10,000 steps of the tower and 1,000 steps with each number of
-//! threads. `PLIANT_SUITE_SCENES=ring,press` picks scenes, `PLIANT_SUITE_FRAMES=200` bounds the steps, and with
-//! `PLIANT_SUITE_LOG=1` every row that fails is printed.
+//! threads. `PLIANT_SUITE_SCENES=ring,press` picks scenes, `PLIANT_SUITE_FRAMES=200` bounds the steps,
+//! `PLIANT_THREAD_STEPS=1000` sets those of the comparison of threads, and with `PLIANT_SUITE_LOG=1` every row that fails is
+//! printed.
 #![allow(clippy::print_stdout, reason = "the figures are what one runs the suite for")]
 
+mod real_meshes;
 mod threads;
 mod worst;
 
@@ -87,15 +89,8 @@ fn random_starts_of_the_tower_hold_too() {
 
 #[test]
 fn one_two_and_four_threads_give_the_same_bits_in_every_scene() {
+    let steps = number("PLIANT_THREAD_STEPS", if full() { 1000 } else { 40 });
     for name in scenes() {
-        let long = ["tower", "ring"].contains(&name.as_str());
-        let steps = if !full() {
-            40
-        } else if long {
-            1000
-        } else {
-            300
-        };
         let one = fingerprints(&name, 1, steps);
         assert!(one.windows(2).any(|pair| pair[0] != pair[1]), "{name}: something moves");
         for threads in [2, 4] {
