@@ -22,6 +22,9 @@ pub struct BenchArgs {
     /// Steps that are measured in each scene, after as many in which bodies come down.
     #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub steps: u32,
+    /// Runs of each scene; each step counts with its quickest.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub runs: u32,
     /// Length of a step in seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0 / 120.0)]
     pub dt: f32,
@@ -41,11 +44,11 @@ pub fn run(args: &BenchArgs) -> Result<()> {
     anyhow::ensure!(args.dt > 0.0 && args.dt <= 1.0, "--dt must be above 0 and at most 1 second, it is {}", args.dt);
     let threads = args.threads.map_or_else(rayon::current_num_threads, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let mut report = Report { threads, dt: args.dt, steps: args.steps, rows: Vec::new() };
+    let mut report = Report { threads, dt: args.dt, steps: args.steps, runs: args.runs, rows: Vec::new() };
     for row in ROWS.iter().filter(|row| args.row.as_ref().is_none_or(|name| row.name.contains(name.as_str()))) {
         let model = crowd::model(row, args.rig_stiffness)?;
         let matching = matching::measure(row, &model, args.dt, &pool)?;
-        let scene = pool.install(|| steps::measure(row, &model, args.dt, args.steps));
+        let scene = pool.install(|| steps::measure(row, &model, args.dt, args.steps, args.runs));
         report.rows.push(Figures { row, vertices: model.rig.masses().len(), matching, scene });
     }
     anyhow::ensure!(!report.rows.is_empty(), "no row is called {:?}", args.row.as_deref().unwrap_or_default());

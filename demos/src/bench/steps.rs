@@ -35,8 +35,23 @@ pub struct SceneTimes {
     pub rapiers_own: f64,
 }
 
-/// Measures `steps` steps after as many in which bodies come down.
-pub fn measure(row: &Row, model: &Arc<ProcDefModel>, dt: f32, steps: u32) -> SceneTimes {
+/// Measures `steps` steps after as many in which bodies come down. The scene is run several times, always the same, and each
+/// step counts with its quickest run, so that other work of the machine does not look like a slow step.
+pub fn measure(row: &Row, model: &Arc<ProcDefModel>, dt: f32, steps: u32, runs: u32) -> SceneTimes {
+    let mut times = run(row, model, dt, steps);
+    for _ in 1..runs {
+        for (list, again) in times.iter_mut().zip(run(row, model, dt, steps)) {
+            list.iter_mut().zip(again).for_each(|(time, again)| *time = time.min(again));
+        }
+    }
+    let mean = times[4].iter().sum::<f64>() / times[4].len().max(1) as f64;
+    let worst = times[4].iter().copied().fold(0.0, f64::max);
+    let [drive, contact, exchange, rapier, step, rapiers_own] = times.map(median);
+    SceneTimes { drive, contact, exchange, rapier, step, mean, worst, rapiers_own }
+}
+
+/// The times of each step of one run.
+fn run(row: &Row, model: &Arc<ProcDefModel>, dt: f32, steps: u32) -> [Vec<f64>; 6] {
     let mut ours = physics(row, dt);
     let mut bodies = creatures(row, model, &mut ours);
     let mut theirs = own_soft_bodies(row, model, dt);
@@ -57,10 +72,7 @@ pub fn measure(row: &Row, model: &Arc<ProcDefModel>, dt: f32, steps: u32) -> Sce
             }
         }
     }
-    let mean = times[4].iter().sum::<f64>() / times[4].len().max(1) as f64;
-    let worst = times[4].iter().copied().fold(0.0, f64::max);
-    let [drive, contact, exchange, rapier, step, rapiers_own] = times.map(median);
-    SceneTimes { drive, contact, exchange, rapier, step, mean, worst, rapiers_own }
+    times
 }
 
 fn creatures(row: &Row, model: &Arc<ProcDefModel>, physics: &mut PhysicsWorld) -> ProcDefWorld {
