@@ -1,8 +1,9 @@
 //! What a crowd costs: 1, 10, 30 and 100 camels in one tower, stage by stage, and how the cost grows.
 //!
-//! The tower is as large as the crowd: its bars, beams and rocks are repeated in rows, with walls around all of them and none
-//! between, so that neighbours meet each other too. The crowds step in turns, frame by frame, so that other work of the
-//! machine is shared by all of them: what counts is the ratios.
+//! In the first table the tower is as large as the crowd: its bars, beams and rocks are repeated in rows, with walls around
+//! all of them and none between, so that neighbours meet each other. In the second one a narrow tower is filled higher and
+//! higher, and the camels fall upon each other. The crowds of a table step in turns, frame by frame, so that other work of
+//! the machine is shared by all of them: what counts is the ratios.
 #![allow(clippy::print_stdout, reason = "the table is what it is for")]
 
 use anyhow::Result;
@@ -10,8 +11,14 @@ use pliant::math::{Pose, Quat, Vec3};
 use pliant_demos::scene::{Obstacle, ObstacleShape, Scene, find_scene, load_scene};
 use pliant_demos::simulation::Simulation;
 
-/// Columns of the tower along x and z, one camel each.
-const CROWDS: [[u32; 2]; 4] = [[1, 1], [5, 2], [6, 5], [10, 10]];
+/// Columns of the tower along x and z, and camels above each other in each column.
+type Crowd = [u32; 3];
+
+/// Towers as large as their crowds.
+const WIDE: [Crowd; 4] = [[1, 1, 1], [5, 2, 1], [6, 5, 1], [10, 10, 1]];
+
+/// One narrow tower.
+const NARROW: [Crowd; 3] = [[1, 1, 1], [1, 1, 4], [1, 1, 12]];
 
 /// From column to column, in metres: the inside of the shipped tower.
 const COLUMN: Vec3 = Vec3::new(3.76, 0.0, 2.5);
@@ -22,11 +29,14 @@ const WALLS: [f32; 2] = [5.8, 5.2];
 /// Where a camel's feet start: the uppermost bars are met in the first frames.
 const START: f32 = 6.2;
 
-/// Frames that are timed: most of a fall. `PLIANT_CROWD_FRAMES` sets another number.
-const FRAMES: u64 = 60;
+/// From camel to camel in a column, in metres.
+const LAYER: f32 = 1.6;
 
-/// A tower of `columns`, each with the obstacles that stand inside the shipped one, and its camel.
-fn crowd(shipped: &Scene, columns: [u32; 2]) -> Result<Simulation> {
+/// Frames that are timed: most of a fall. `PLIANT_CROWD_FRAMES` sets another number.
+const FRAMES: u64 = 180;
+
+/// A tower of columns, each with the obstacles that stand inside the shipped one, and its camels.
+fn crowd(shipped: &Scene, columns: Crowd) -> Result<Simulation> {
     let mut scene = shipped.clone();
     let whole = COLUMN * Vec3::new(columns[0] as f32, 0.0, columns[1] as f32);
     let named = |o: &&Obstacle, words: &[&str]| words.iter().any(|word| o.name.as_deref().unwrap_or("").contains(word));
@@ -55,13 +65,16 @@ fn crowd(shipped: &Scene, columns: [u32; 2]) -> Result<Simulation> {
                 obstacle.pose.translation += place;
                 scene.obstacles.push(obstacle);
             }
-            let mut body = camel.clone();
-            let number = scene.bodies.len();
-            // By the golden ratio: each has another direction, and all directions are there in every crowd.
-            let turn = 0.618_034 * number as f32 * std::f32::consts::TAU;
-            body.pose = Pose::from_parts(place + START * Vec3::Y, Quat::from_rotation_y(turn) * camel.pose.rotation);
-            body.name = format!("camel {number}");
-            scene.bodies.push(body);
+            for layer in 0..columns[2] {
+                let mut body = camel.clone();
+                let number = scene.bodies.len();
+                // By the golden ratio: each has another direction, and all directions are there in every crowd.
+                let turn = 0.618_034 * number as f32 * std::f32::consts::TAU;
+                let place = place + (START + LAYER * layer as f32) * Vec3::Y;
+                body.pose = Pose::from_parts(place, Quat::from_rotation_y(turn) * camel.pose.rotation);
+                body.name = format!("camel {number}");
+                scene.bodies.push(body);
+            }
         }
     }
     let mut simulation = Simulation::new(scene, 0)?;
@@ -103,11 +116,10 @@ fn exponent(costs: [f64; 2], bodies: [f64; 2]) -> f64 {
     (costs[1] / costs[0]).ln() / (bodies[1] / bodies[0]).ln()
 }
 
-fn main() -> Result<()> {
-    let frames = std::env::var("PLIANT_CROWD_FRAMES").ok().and_then(|text| text.parse().ok()).unwrap_or(FRAMES);
-    let shipped = load_scene(find_scene("tower")?)?;
-    let mut crowds = CROWDS.iter().map(|columns| crowd(&shipped, *columns)).collect::<Result<Vec<_>>>()?;
-    let mut costs = [Cost::default(); CROWDS.len()];
+/// Lets crowds fall, in turns, and prints what they cost.
+fn table(title: &str, shipped: &Scene, crowds: &[Crowd], frames: u64) -> Result<()> {
+    let mut costs = vec![Cost::default(); crowds.len()];
+    let mut crowds = crowds.iter().map(|columns| crowd(shipped, *columns)).collect::<Result<Vec<_>>>()?;
     for frame in 0..=frames {
         for (simulation, cost) in crowds.iter_mut().zip(&mut costs) {
             simulation.step();
@@ -119,7 +131,7 @@ fn main() -> Result<()> {
     }
     let count = |crowd: &Simulation| crowd.actors.len() as f64;
     let per_frame = frames.max(1) as f64;
-    println!("\ncamels in one tower, {frames} frames of 1/60 s, ms a frame");
+    println!("\n{title}, {frames} frames of 1/60 s, ms a frame");
     println!("bodies    rigid   contact    deform       all   all a body   contacts   touching   contact ms a contact");
     for (crowd, cost) in crowds.iter().zip(&costs) {
         println!(
@@ -151,4 +163,11 @@ fn main() -> Result<()> {
         );
     }
     Ok(())
+}
+
+fn main() -> Result<()> {
+    let frames = std::env::var("PLIANT_CROWD_FRAMES").ok().and_then(|text| text.parse().ok()).unwrap_or(FRAMES);
+    let shipped = load_scene(find_scene("tower")?)?;
+    table("camels in a tower as large as the crowd", &shipped, &WIDE, frames)?;
+    table("camels in one narrow tower", &shipped, &NARROW, frames)
 }
