@@ -151,6 +151,16 @@ impl Limits {
             "heap" => {
                 Self { depth: 1.1, piercing: 1.1, gap: 0.05, pairs: f32::INFINITY, coherence: 24.0, many_passes: 0.45 }
             }
+            // Meshes of others: as for the head, the contacts that carry a body through a ring change.
+            "spot in a ring" | "max in a ring" | "elephant in a ring" => {
+                Self { coherence: 40.0, many_passes: 0.08, ..Self::AIM }
+            }
+            // In one frame of 600 a way with more passes is found.
+            "elephant in the tower" => Self { coherence: 12.5, ..Self::AIM },
+            // Ears and trunk of the head's skin fold around an arm: a plane cannot part them.
+            "elephant ragdoll in the tower" => {
+                Self { gap: 0.125, pairs: 0.62, coherence: 36.0, many_passes: 0.02, ..Self::AIM }
+            }
             _ => Self::AIM,
         }
     }
