@@ -32,8 +32,8 @@ const START: f32 = 6.2;
 /// From camel to camel in a column, in metres.
 const LAYER: f32 = 1.6;
 
-/// Frames that are timed: most of a fall. `PLIANT_CROWD_FRAMES` sets another number.
-const FRAMES: u64 = 180;
+/// Frames that are timed: the fall upon the first two bars. `PLIANT_CROWD_FRAMES` sets another number.
+const FRAMES: u64 = 75;
 
 /// A tower of columns, each with the obstacles that stand inside the shipped one, and its camels.
 fn crowd(shipped: &Scene, columns: Crowd) -> Result<Simulation> {

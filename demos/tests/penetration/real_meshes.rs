@@ -160,7 +160,7 @@ fn deformation(simulation: &Simulation) -> f32 {
 }
 
 /// The models, or those of `PLIANT_SUITE_SCENES`.
-fn chosen<'a>(models: &'a [Model]) -> impl ParallelIterator<Item = &'a Model> {
+fn chosen(models: &[Model]) -> impl ParallelIterator<Item = &Model> {
     let only = std::env::var("PLIANT_SUITE_SCENES").ok();
     models.par_iter().filter(move |model| only.as_ref().is_none_or(|only| only.split(',').any(|o| o == model.name)))
 }
