@@ -54,7 +54,7 @@ fn everything() -> RigDescription {
             refractory: Some(0.7),
             charts: Some(ChartsDescription { cycle: 0.6, primary: vec![[0.0, 1.0], [0.5, 0.5]], ..Default::default() }),
         }),
-        contact: Some(ContactDescription { friction: 0.4, self_contact: true }),
+        contact: Some(ContactDescription { friction: 0.4, self_contact: true, vertices: true }),
         water: Some(WaterDescription { density: 1000.0, normal_drag: 1.1, tangential_drag: 0.01 }),
         ground: Some(GroundDescription { direction: [1.0, 0.0, 0.0], forward: 0.1, backward: 0.9, sideways: 0.5 }),
         layer: vec![
