@@ -22,7 +22,7 @@ pub struct BenchArgs {
     /// Steps that are measured in each scene, after as many in which bodies come down.
     #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub steps: u32,
-    /// Runs of each scene; each step counts with its quickest.
+    /// Runs of each scene; each part of a step counts with its quickest.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub runs: u32,
     /// Length of a step in seconds.

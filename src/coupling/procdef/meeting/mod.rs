@@ -2,8 +2,7 @@
 //!
 //! Rapier's contacts of deformable surfaces are general and dear: a heap of a hundred worms spends 95 % of its step in them. Here
 //! a vertex meets the nearest point of another body's surface, or of a rigid collider, once a step: no edges against edges, no
-//! substeps, no warm starts. That is a third of what rapier keeps apart, at a tenth of the cost, and enough for bodies whose
-//! triangles are small beside what they touch.
+//! substeps, no warm starts. That is enough for bodies whose triangles are small beside what they touch.
 //!
 //! The velocities that bodies want to go on with are changed so that rapier's next step, which moves the particles, ends without
 //! overlaps: sequential impulses (Catto, *Iterative Dynamics with Temporal Coherence*, 2005) between vertices, triangles and

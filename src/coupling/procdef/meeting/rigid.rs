@@ -229,12 +229,10 @@ fn touch_part(
             && let Some(face) = &part.face
         {
             normal = face.way_out(normal);
-            match face.exit(x, normal) {
-                Some(depth) => distance = -depth,
-                None => {
-                    (distance, normal) =
-                        face.way_to_surface(x).map_or((distance, normal), |w| (-w.length(), face.normal))
-                }
+            if let Some(depth) = face.exit(x, normal) {
+                distance = -depth;
+            } else if let Some(way) = face.way_to_surface(x) {
+                (distance, normal) = (-way.length(), face.normal);
             }
         }
         let gap = distance - skins;

@@ -12,7 +12,7 @@ use crate::math::Vec3;
 const SWEEPS: u32 = 8;
 /// The part of an overlap that is undone in a step.
 const UNDONE: f32 = 0.5;
-/// Bodies that overlap part by so many gaps' worth of skin a second at most.
+/// Bodies that overlap part by so many times the gap that is kept between them a second, at most.
 pub const PARTING: f32 = 20.0;
 
 /// The other side of a contact.
