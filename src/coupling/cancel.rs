@@ -23,7 +23,7 @@ pub struct CancelSettings {
     pub max_passes: u32,
     /// Most rounds of the solve for the strengths in each pass.
     pub max_rounds: u32,
-    /// Most integration steps of a pass; a field whose bound asks for more is weakened and the next pass goes on.
+    /// Most integration steps of a pass; where the bound asks for more, all its fields are weakened and the next pass goes on.
     pub max_steps: u32,
     /// Where the fields are placed.
     pub placement: Placement,

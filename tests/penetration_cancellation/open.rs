@@ -38,5 +38,5 @@ pub fn is_open(body: &str, arrangement: &str) -> bool {
     OPEN_ARRANGEMENTS.iter().any(|(name, start)| *name == body && arrangement.starts_with(start))
 }
 
-/// The funnel of eight walls takes five passes.
-const OPEN_ARRANGEMENTS: &[(&str, &str)] = &[("head", "funnel, depth 0.3")];
+/// The funnel of eight walls takes five or six passes.
+const OPEN_ARRANGEMENTS: &[(&str, &str)] = &[("ball", "funnel, depth 0.3"), ("head", "funnel, depth 0.3")];
