@@ -14,8 +14,11 @@ pub fn fingerprints(scene: &str, threads: usize, steps: u64) -> Vec<u64> {
         let mut prints = Vec::new();
         for _ in 0..steps {
             simulation.step();
-            let bodies = simulation.actors.iter().filter_map(|actor| simulation.deformation.get(actor.handle));
-            let words = bodies.flat_map(|body| body.positions()).flat_map(|x| x.to_array()).map(f32::to_bits);
+            let skins = simulation.actors.iter().filter_map(|actor| simulation.deformation.get(actor.handle));
+            let bodies = simulation.soft_actors.iter().filter_map(|actor| simulation.creatures.get(actor.handle));
+            let skins = skins.flat_map(|body| body.positions());
+            let words = skins.chain(bodies.flat_map(|body| body.positions()));
+            let words = words.flat_map(|x| x.to_array()).map(f32::to_bits);
             prints.push(
                 words.fold(0xCBF2_9CE4_8422_2325, |hash, word| (hash ^ u64::from(word)).wrapping_mul(0x0100_0000_01B3)),
             );

@@ -128,26 +128,27 @@ impl Limits {
         Self { depth: INSIDE, piercing: PIERCED, gap: GAP, pairs: PAIRS, coherence: SMOOTH, many_passes: MANY_PASSES };
 
     /// What is asserted of one scene: the aim, or what was measured where it is not reached yet, and a half more. These
-    /// numbers may only become smaller; `docs/penetration.md` says why they are there.
+    /// numbers may only become smaller; `docs/penetration.md` says why they are there. The shares of many passes are those of the
+    /// first 120 frames, in which the bodies land.
     pub fn of(scene: &str) -> Self {
         match scene {
             // Belly and thighs of the camel fold into each other where it lands.
             "tower" => Self { pairs: 0.03, ..Self::AIM },
             // Of four starts at random one lands with a leg between two bars, where neither the leg nor the bars give way.
             "tower starts" => {
-                Self { depth: 0.003, gap: 0.37, pairs: 0.2, coherence: 60.0, many_passes: 0.04, ..Self::AIM }
+                Self { depth: 0.003, gap: 0.37, pairs: 0.2, coherence: 60.0, many_passes: 0.12, ..Self::AIM }
             }
             // While the head is in the ring the contacts that carry it change.
             "ring" => Self { coherence: 25.0, many_passes: 0.05, ..Self::AIM },
             "obstacles" => Self { coherence: 18.0, ..Self::AIM },
             // A bean is cut in two by a spinning bar.
-            "wires" => Self { depth: 0.01, piercing: 0.03, gap: 0.23, coherence: 42.0, many_passes: 0.04, ..Self::AIM },
+            "wires" => Self { depth: 0.01, piercing: 0.03, gap: 0.23, coherence: 42.0, many_passes: 0.11, ..Self::AIM },
             // Bodies without room: a bean under a ball in a wedge, soft balls under four others, a head on spikes.
             "spikes" => {
-                Self { depth: 0.004, piercing: 0.045, gap: 0.12, coherence: 75.0, many_passes: 0.17, ..Self::AIM }
+                Self { depth: 0.004, piercing: 0.045, gap: 0.12, coherence: 75.0, many_passes: 0.47, ..Self::AIM }
             }
-            "corners" => Self { gap: 0.045, pairs: 1.3, coherence: 470.0, many_passes: 0.05, ..Self::AIM },
-            "funnel" => Self { depth: 0.15, piercing: 0.15, gap: 0.4, pairs: 0.17, coherence: 70.0, many_passes: 0.07 },
+            "corners" => Self { gap: 0.045, pairs: 1.3, coherence: 470.0, many_passes: 0.18, ..Self::AIM },
+            "funnel" => Self { depth: 0.15, piercing: 0.15, gap: 0.4, pairs: 0.17, coherence: 70.0, many_passes: 0.22 },
             "heap" => {
                 Self { depth: 1.1, piercing: 1.1, gap: 0.05, pairs: f32::INFINITY, coherence: 24.0, many_passes: 0.45 }
             }
@@ -156,10 +157,11 @@ impl Limits {
                 Self { coherence: 40.0, many_passes: 0.08, ..Self::AIM }
             }
             // In one frame of 600 a way with more passes is found.
-            "elephant in the tower" => Self { coherence: 12.5, ..Self::AIM },
+            "elephant in the tower" => Self { coherence: 12.5, many_passes: 0.04, ..Self::AIM },
+            "spot ragdoll in the tower" => Self { many_passes: 0.06, ..Self::AIM },
             // Ears and trunk of the head's skin fold around an arm: a plane cannot part them.
             "elephant ragdoll in the tower" => {
-                Self { gap: 0.125, pairs: 0.62, coherence: 36.0, many_passes: 0.02, ..Self::AIM }
+                Self { gap: 0.125, pairs: 0.62, coherence: 36.0, many_passes: 0.08, ..Self::AIM }
             }
             _ => Self::AIM,
         }
