@@ -113,7 +113,7 @@ impl HuggingField {
 }
 
 impl Lipschitz for HuggingField {
-    /// [`collision_bound`] for the product of two weights, that of the part with the width `W` and that of the patch with `V`:
+    /// The bound for the product of two weights, that of the part with the width `W` and that of the patch with `V`:
     /// `|∇(2φψ)| ≤ S √(1/W² + 1/V²)` and `|∇∇(2φψ)| ≤ C (1/W² + 1/V²) + 0.14 / (W V)`, since both are never steep at once. A
     /// spread `B` with the norm `1 + s` multiplies all that `b` takes part in.
     fn lipschitz(&self) -> f32 {
