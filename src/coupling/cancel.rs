@@ -91,8 +91,9 @@ pub fn cancel(
     let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
     let start = body.collision_state();
     let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
-    let others = (0..WAYS.len()).filter(|&way| way != settings.first_way);
-    for way in std::iter::once(settings.first_way.min(WAYS.len() - 1)).chain(others) {
+    let first = settings.first_way.min(WAYS.len() - 1);
+    let others = (0..WAYS.len()).filter(|&way| way != first);
+    for way in std::iter::once(first).chain(others) {
         let (softer, stride) = WAYS[way];
         let mut report = attempt(body, parts, near, Way { softness: softness * softer, stride }, size, settings);
         if report.passes == 0 && report.left <= 0.0 {

@@ -37,7 +37,7 @@ pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = Bar>, reach: f3
 /// rather along the direction across `normal` that fewer of them bar.
 ///
 /// With `λ₁ ≥ λ₂` the eigenvalues of `Σ w m mᵀ`, `m` the others' normals across `normal`, and `e` the eigenvector of `λ₂`,
-/// the share is `(λ₁ − λ₂) / (λ₁ + λ₂ + ½)`: nearly all where two walls bar one way and none the other.
+/// the share is `(λ₁ − λ₂) / (λ₁ + λ₂ + ½)`: four fifths where two walls bar one way and none the other.
 pub fn spread_between(normal: Vec3, others: impl IntoIterator<Item = Bar>) -> Spread {
     let (x, y) = normal.any_orthonormal_pair();
     let (mut xx, mut xy, mut yy) = (0.0_f32, 0.0_f32, 0.0_f32);

@@ -284,7 +284,7 @@ fn influence(
                 continue;
             }
             // A field that is off is felt as if it were on a little.
-            let unit = strength[j].max(1.0e-4 * field.width);
+            let unit = strength[j].max(1.0e-4 * field.width).max(f32::MIN_POSITIVE);
             let probe = HuggingField { d: contacts[j].near.normal * unit, ..field.clone() };
             let halfway = x + contact.near.normal * (0.5 * strength[i]);
             let share = weight * probe.velocity(halfway, 0.5).dot(contact.near.normal) / unit;
