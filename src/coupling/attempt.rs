@@ -8,7 +8,7 @@ use super::closing::{close_gaps, widest_gap};
 use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, add_guards, add_piercings, find_contacts, find_guards, find_piercings};
-use super::strength::{Way, solve_pass};
+use super::strength::{Way, solve_pass, stride_of};
 use crate::elastic::{CollisionState, ElasticBody};
 
 /// Adds passes to the palette of `body` until nothing is left or nothing is gained any more; each handles what the last left
@@ -24,6 +24,7 @@ pub(super) fn attempt(
     let mut report = CancelReport::default();
     let tolerance = settings.depth_tolerance * size;
     let mut best = Best { worst: f32::INFINITY, state: body.collision_state(), passes: 0 };
+    let mut wide = 0;
     loop {
         let mut contacts = find_contacts(body, parts, near, tolerance);
         let small = contacts.iter().all(|contact| contact.depth() < SMALL * size);
@@ -39,7 +40,7 @@ pub(super) fn attempt(
             break;
         }
         let mut pace = way;
-        if report.passes >= WIDE_PASSES && small {
+        if wide >= WIDE_PASSES && small {
             // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
             pace.softness *= 0.5;
             contacts =
@@ -50,6 +51,7 @@ pub(super) fn attempt(
         let mut all = contacts.clone();
         add_guards(body, parts, guards, &mut all);
         let least = vec![0.0; all.len()];
+        wide += u32::from(stride_of(&all, pace.stride * size) >= 1.0);
         let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, pace, size, settings);
         if report.passes == 0 {
             report.contacts = contacts;

@@ -101,6 +101,7 @@ pub fn cancel(
         }
         report.way = way;
         let grade = Grade::of(&report, (&*body, parts), &start, size, settings);
+        if std::env::var("DBG").is_ok() { eprintln!("  way {way} grade {grade:?}"); }
         let good = grade.open <= 0.0 && grade.folds == 0;
         if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
             best = Some((grade, report, body.collision_state()));

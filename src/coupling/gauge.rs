@@ -29,7 +29,9 @@ pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = Bar>, reach: f3
         matrix += outer(other.normal) * other.weight;
         right += other.normal * (other.weight * other.normal.dot(other.point - point));
     }
-    let ridge = Mat3::from_diagonal(Vec3::splat(NEARLY_PARALLEL * NEARLY_PARALLEL));
+    let trace = matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z;
+    let ridge = std::env::var("RIDGE").ok().and_then(|s| s.parse::<f32>().ok()).unwrap_or(NEARLY_PARALLEL) * (0.5 * trace).max(1.0);
+    let ridge = Mat3::from_diagonal(Vec3::splat(ridge * ridge));
     point + (matrix * ((matrix * matrix + ridge).inverse() * right)).clamp_length_max(reach)
 }
 

@@ -92,6 +92,14 @@ pub(super) fn solve_pass(
     }
     let strength = best.1;
     set_strengths(&mut pass, contacts, &strength, body, settings);
+    if std::env::var("DBG").is_ok() {
+        eprintln!("  pass steps {} way {:?} score {} ", pass.steps, way, best.0);
+        for (i, c) in contacts.iter().enumerate() {
+            let CollisionField::Hugging(f) = &pass.fields[i].field else { continue };
+            if c.depth() > 0.0 || strength[i] != 0.0 {
+            eprintln!("    seg {} part {} n {:.2?} c {:.3?} r {:.3} depth {:.4} guards {:.3} s {:.4} pts {} pierced {} gauge {:.3?} w {:.3} spread {:.2} lip {:.2}", c.near.segment, c.near.part, c.near.normal.to_array(), c.centre.to_array(), c.radius, c.depth(), c.guards, strength[i], c.points.len(), c.pierced, (f.gauge-c.centre).to_array(), f.width, f.spread.share, f.lipschitz()); }
+        }
+    }
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     (pass, strength)
 }
@@ -120,7 +128,7 @@ const GAP_COUNTS: f32 = 0.5;
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
 /// one of them then flows towards the next, and the strengths are right for a short way only.
-fn stride_of(contacts: &[Contact], stride: f32) -> f32 {
+pub(super) fn stride_of(contacts: &[Contact], stride: f32) -> f32 {
     let against = |a: &Contact| contacts.iter().any(|b| a.near.normal.dot(b.near.normal) < AGAINST_EACH_OTHER);
     if contacts.len() < 3 || !contacts.iter().any(against) {
         return 1.0;
