@@ -90,6 +90,7 @@ pub fn cancel(
     }
     let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
     let start = body.collision_state();
+    if std::env::var("DBG").is_ok() { eprintln!("CANCEL at {:?} size {size}", body.motions()[0].translation); }
     let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
     let first = settings.first_way.min(WAYS.len() - 1);
     let others = (0..WAYS.len()).filter(|&way| way != first);

@@ -7,10 +7,10 @@ use super::contact::Proximity;
 use super::gauge::{Bar, gauge_point, spread_between};
 use super::magnitude::complementarity;
 use super::obstacle::ObstaclePart;
-use super::penetrations::Contact;
+use super::penetrations::{Contact, Penetration};
 use super::probes::{Outcome, Probes};
 use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField, SegmentSkin};
-use crate::field::{HuggingField, Lipschitz, Patch, usual_steps};
+use crate::field::{ConvexPart, PartShape, PlacedPart, HuggingField, Lipschitz, Patch, usual_steps};
 use crate::math::{Pose, Vec3};
 
 /// How passes go about their work.
@@ -66,6 +66,7 @@ pub(super) fn solve_pass(
             break;
         }
         let score = if missed { f32::INFINITY } else { openness(&outcome, &strength, &aim, least) };
+        if std::env::var("DBG").is_ok() && n < 4 { eprintln!("     round s {strength:.4?} gaps {:.4?} points {:?} missed {missed} score {score} fraction {fraction} target {target:.3?}", outcome.iter().map(|o| o.gap).collect::<Vec<_>>(), outcome.iter().map(|o| o.point.position(body.positions()) - contacts[0].centre).collect::<Vec<_>>()); }
         if score < best.0 || missed {
             best = (score, strength.clone());
             let matrix = influence(body, &pass, contacts, &outcome, &strength);
@@ -170,7 +171,7 @@ fn place_fields(
         SegmentField {
             shares: shares(body, parts, contact, near),
             field: CollisionField::Hugging(HuggingField {
-                part: parts[contact.near.part].region(width).clone(),
+                part: region_of(body, parts, contact, width),
                 d: Vec3::ZERO,
                 gauge,
                 width,
@@ -181,6 +182,23 @@ fn place_fields(
         }
     };
     contacts.iter().enumerate().map(field).collect()
+}
+
+/// The region of constant velocity of a contact's field: the part, or, where the contact is with pieces of a surface, all that
+/// lies below the highest of the points on it.
+///
+/// A contact with a surface is one with many pieces; a region about one of them would move the skin over the others less, and
+/// would jump when another piece becomes the deepest.
+fn region_of(body: &ElasticBody, parts: &[ObstaclePart], contact: &Contact, width: f32) -> PlacedPart {
+    let part = &parts[contact.near.part];
+    if contact.pierced || !part.is_piece() {
+        return part.region(width).clone();
+    }
+    let normal = contact.near.normal;
+    let height = |p: &Penetration| (p.point.position(body.positions()) - contact.centre).dot(normal) + p.depth;
+    let top = contact.points.iter().map(height).fold(0.0, f32::max);
+    let pose = Pose::from_translation(contact.centre + normal * top);
+    PlacedPart::new(ConvexPart { shape: PartShape::HalfSpace { normal }, rounding: 0.0 }, pose)
 }
 
 /// How much of a contact's field each segment takes: all of it, but for segments that the same part, or one that touches

@@ -7,7 +7,7 @@ use rapier3d::parry::shape::SharedShape;
 use super::local_part::LocalPart;
 use super::outer_face::OuterFace;
 use crate::field::{ConvexHull, ConvexPart, PartShape, PlacedPart};
-use crate::math::{Pose, Quat, Vec3};
+use crate::math::{Pose, Vec3};
 
 /// Names a convex part of a collider for as long as the collider keeps its shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,7 +53,6 @@ impl ObstaclePart {
         let placed = PlacedPart::new(local.part.clone(), pose);
         let face = local.face.as_ref().map(|face| face.moved(&pose));
         let simpler = match &local.part.shape {
-            _ if let Some(slab) = face.as_ref().and_then(slab) => Some(slab),
             PartShape::Hull(hull) if hull.triangles().len() > MANY_TRIANGLES => {
                 let bounds = local.shape.compute_local_aabb();
                 let shape = PartShape::Cuboid { half_extents: bounds.half_extents() };
@@ -74,7 +73,7 @@ impl ObstaclePart {
     /// hugs a small part well enough, at a small part of the cost.
     pub fn region(&self, width: f32) -> &PlacedPart {
         match &self.simpler {
-            Some(region) if self.is_piece() || (self.aabb.maxs - self.aabb.mins).length() < SMALL * width => region,
+            Some(region) if (self.aabb.maxs - self.aabb.mins).length() < SMALL * width => region,
             _ => &self.placed,
         }
     }
@@ -109,8 +108,9 @@ impl ObstaclePart {
         Some(reach - hit)
     }
 
-    fn is_piece(&self) -> bool {
-        self.face.as_ref().is_some_and(|face| !face.two_sided && face.area < face.thickness * face.thickness)
+    /// True for a piece of a surface with a solid side.
+    pub fn is_piece(&self) -> bool {
+        self.face.as_ref().is_some_and(|face| !face.two_sided)
     }
 
     /// True where `x` is inside the part.
@@ -195,15 +195,3 @@ const CLOSE: f32 = 1.0e-6;
 
 /// A ray that touches a round part tangentially closes in slowly: by half in each step.
 const NEWTON_STEPS: usize = 32;
-
-/// A wide slab below the face of a piece of a surface: there is more of the surface beside the piece.
-fn slab(face: &OuterFace) -> Option<PlacedPart> {
-    if face.two_sided {
-        return None;
-    }
-    let half = face.thickness;
-    let rotation = Quat::from_rotation_arc(Vec3::Y, face.normal);
-    let pose = Pose::from_parts(face.middle - face.normal * half, rotation);
-    let shape = PartShape::Cuboid { half_extents: Vec3::splat(half) };
-    Some(PlacedPart::new(ConvexPart { shape, rounding: 0.0 }, pose))
-}
