@@ -47,7 +47,8 @@ pub struct Contact {
 
 /// The contacts of a skin with the parts near it, vertices deeper than `tolerance` only.
 ///
-/// A vertex that several segments share belongs to the contact that leads it out of the part on the shortest way.
+/// A vertex that several segments share belongs to the contact that leads it out of the part on the shortest way; of two that
+/// are about as short, to that of the segment that moves it most.
 pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
     let points: Vec<SegmentPoints> =
         (0..body.skins().len()).into_par_iter().map(|segment| SegmentPoints::of(body, segment)).collect();
@@ -59,9 +60,12 @@ pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximi
     let mut shortest: HashMap<(usize, u32), (f32, usize)> = HashMap::new();
     for (contact, (near, vertices)) in near.iter().zip(&found).enumerate() {
         for p in vertices.iter().filter(|p| p.point.is_vertex()) {
-            let best = shortest.entry((near.part, p.point.vertices[0])).or_insert((p.depth, contact));
-            if p.depth < best.0 {
-                *best = (p.depth, contact);
+            let vertex = p.point.vertices[0];
+            let own = body.rig().weights[vertex as usize].weight_of(near.segment);
+            let way = p.depth * (1.0 + FOREIGN * (1.0 - own));
+            let best = shortest.entry((near.part, vertex)).or_insert((way, contact));
+            if way < best.0 {
+                *best = (way, contact);
             }
         }
     }
@@ -74,6 +78,9 @@ pub fn find_contacts(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximi
     }
     merged(body, parts, contacts)
 }
+
+/// By this part longer is the way out with a segment that moves the vertex not at all taken for.
+const FOREIGN: f32 = 0.25;
 
 /// The contacts of triangles that tips and edges pierce between their corners, each with the shortest way out.
 ///

@@ -97,7 +97,7 @@ pub(super) fn solve_pass(
         eprintln!("  pass steps {} way {:?} score {} ", pass.steps, way, best.0);
         for (i, c) in contacts.iter().enumerate() {
             let CollisionField::Hugging(f) = &pass.fields[i].field else { continue };
-            if c.depth() > 0.0 || strength[i] != 0.0 {
+            if true {
             eprintln!("    seg {} part {} n {:.2?} c {:.3?} r {:.3} depth {:.4} guards {:.3} s {:.4} pts {} pierced {} gauge {:.3?} w {:.3} spread {:.2} lip {:.2}", c.near.segment, c.near.part, c.near.normal.to_array(), c.centre.to_array(), c.radius, c.depth(), c.guards, strength[i], c.points.len(), c.pierced, (f.gauge-c.centre).to_array(), f.width, f.spread.share, f.lipschitz()); }
         }
     }
@@ -158,10 +158,12 @@ fn place_fields(
     softness: f32,
 ) -> Vec<SegmentField> {
     let field = |(j, contact): (usize, &Contact)| {
-        let others = || {
-            let others = contacts.iter().enumerate().filter(|&(i, _)| i != j);
-            others.map(|(_, other)| Bar { point: other.centre, normal: other.near.normal, weight: other.closeness() })
+        let bar = |other: &Contact| Bar {
+            point: other.centre,
+            normal: other.near.normal,
+            weight: other.closeness() * parts[other.near.part].presence,
         };
+        let others = || contacts.iter().enumerate().filter(|&(i, _)| i != j).map(|(_, other)| bar(other));
         let gauge = gauge_point(contact.centre, others(), body.skins()[usize::from(contact.near.segment)].size);
         let spread = spread_between(contact.near.normal, others());
         let skin = &body.skins()[usize::from(contact.near.segment)];

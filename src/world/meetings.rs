@@ -20,6 +20,9 @@ const TOLERANCE: f32 = 1.0e-3;
 /// The box behind an interface is deeper than the overlap by this part of the smaller segment's size.
 const MARGIN: f32 = 0.15;
 
+/// An interface is fully there from this depth of the overlap on, as a part of the segment's size.
+const FULL: f32 = 0.03;
+
 /// Most points at which two segments push each other.
 const MOST_POINTS: usize = 96;
 
@@ -119,7 +122,8 @@ impl DeformationWorld {
                 let Some(body) = self.body_at(encounters, at.body).filter(|_| yields > 0.0) else { continue };
                 let margin = MARGIN * body.skins()[at.segment].size;
                 let id = PartId { collider: (u32::MAX, u32::MAX), part: 2 * parted.len() as u32 + side as u32 };
-                let Ok(part) = interface_part(&interface, first, margin, id) else { continue };
+                let Ok(mut part) = interface_part(&interface, first, margin, id) else { continue };
+                part.presence = (overlap.depth() / (FULL * body.skins()[at.segment].size)).min(1.0);
                 let encounter = &mut encounters[at.body];
                 let normal = if first { pair.normal } else { -pair.normal };
                 let (part_index, axis_point) = (encounter.parts.len(), pair.axis_points[side]);
