@@ -20,8 +20,9 @@ const TOLERANCE: f32 = 1.0e-3;
 /// The box behind an interface is deeper than the overlap by this part of the smaller segment's size.
 const MARGIN: f32 = 0.15;
 
-/// An interface is fully there from this depth of the overlap on, as a part of the segment's size.
-const FULL: f32 = 0.03;
+/// An interface comes into being where skins are nearer to each other than this part of the smaller body's size, and is fully
+/// there where they touch.
+const NEARING: f32 = 0.03;
 
 /// Most points at which two segments push each other.
 const MOST_POINTS: usize = 96;
@@ -90,7 +91,7 @@ impl DeformationWorld {
         };
         let (Some(a), Some(b)) = (rigid_body(pair.a), rigid_body(pair.b)) else { return Vec::new() };
         let (Some(x), Some(y)) = (rigid.get(&pair.a.body), rigid.get(&pair.b.body)) else { return Vec::new() };
-        let Some(overlap) = self.overlap(encounters, pair, x, y) else { return Vec::new() };
+        let Some(overlap) = self.overlap(encounters, pair, x, y, 0.0) else { return Vec::new() };
         let point = |position: Vec3, depth: f32| PairPoint { bodies: [a, b], position, normal: pair.normal, depth };
         let first = overlap.a.iter().map(|p| point(p.position + pair.normal * (0.5 * p.depth), p.depth));
         let second = overlap.b.iter().map(|p| point(p.position - pair.normal * (0.5 * p.depth), p.depth));
@@ -99,8 +100,8 @@ impl DeformationWorld {
         all.into_iter().step_by(stride).collect()
     }
 
-    /// Puts an interface between each two skins that overlap and have none yet: a part for each of them. True for the bodies
-    /// whose skins overlap others.
+    /// Puts an interface between each two skins that overlap, or are about to, and have none yet: a part for each of them. True
+    /// for the bodies whose skins overlap others.
     pub(super) fn part_skins(
         &self,
         encounters: &mut [Encounter],
@@ -108,8 +109,11 @@ impl DeformationWorld {
         parted: &mut BTreeSet<(SegmentRef, SegmentRef)>,
     ) -> Vec<bool> {
         let mut touched = vec![false; encounters.len()];
-        for (pair, overlap) in self.skin_overlaps(encounters, pairs) {
-            (touched[pair.a.body], touched[pair.b.body]) = (true, true);
+        for (pair, overlap) in self.skin_overlaps(encounters, pairs, NEARING) {
+            let size = self.smaller_size(encounters, &pair);
+            if overlap.depth() > TOLERANCE * size {
+                (touched[pair.a.body], touched[pair.b.body]) = (true, true);
+            }
             if !parted.insert((pair.a, pair.b)) {
                 continue;
             }
@@ -123,7 +127,7 @@ impl DeformationWorld {
                 let margin = MARGIN * body.skins()[at.segment].size;
                 let id = PartId { collider: (u32::MAX, u32::MAX), part: 2 * parted.len() as u32 + side as u32 };
                 let Ok(mut part) = interface_part(&interface, first, margin, id) else { continue };
-                part.presence = (overlap.depth() / (FULL * body.skins()[at.segment].size)).min(1.0);
+                part.presence = (1.0 + overlap.closeness() / (NEARING * size)).clamp(0.0, 1.0);
                 let encounter = &mut encounters[at.body];
                 let normal = if first { pair.normal } else { -pair.normal };
                 let (part_index, axis_point) = (encounter.parts.len(), pair.axis_points[side]);
@@ -150,7 +154,7 @@ impl DeformationWorld {
 
     /// Notes how deep skins are still in each other.
     pub(super) fn measure_pairs(&self, encounters: &mut [Encounter], pairs: &[SegmentPair]) {
-        for (pair, overlap) in self.skin_overlaps(encounters, pairs) {
+        for (pair, overlap) in self.skin_overlaps(encounters, pairs, -TOLERANCE) {
             for at in [pair.a, pair.b] {
                 let depth = &mut encounters[at.body].pair_depth;
                 *depth = depth.max(overlap.depth());
@@ -158,29 +162,48 @@ impl DeformationWorld {
         }
     }
 
-    /// The overlaps of the skins as they are now, but for those of two bodies at rest and those that are too small.
-    fn skin_overlaps(&self, encounters: &[Encounter], pairs: &[SegmentPair]) -> Vec<(SegmentPair, Overlap)> {
+    /// The overlaps of the skins as they are now, and skins that are nearer to each other than `within` (a part of the smaller
+    /// body's size; below 0 for overlaps deeper than that), but for those of two bodies at rest.
+    fn skin_overlaps(
+        &self,
+        encounters: &[Encounter],
+        pairs: &[SegmentPair],
+        within: f32,
+    ) -> Vec<(SegmentPair, Overlap)> {
         let find = |pair: &SegmentPair| {
             let moves = |at: SegmentRef| encounters[at.body].is_active();
             if !moves(pair.a) && !moves(pair.b) {
                 return None;
             }
             let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
-            let overlap = self.overlap(encounters, pair, a.positions(), b.positions())?;
-            let size = a.rig().mesh.size().min(b.rig().mesh.size());
-            (overlap.depth() > TOLERANCE * size).then_some((*pair, overlap))
+            let margin = within * self.smaller_size(encounters, pair);
+            let overlap = self.overlap(encounters, pair, a.positions(), b.positions(), margin.max(0.0))?;
+            (overlap.closeness() > -margin).then_some((*pair, overlap))
         };
         pairs.par_iter().map(find).collect::<Vec<_>>().into_iter().flatten().collect()
     }
 
-    fn overlap(&self, encounters: &[Encounter], pair: &SegmentPair, x: &[Vec3], y: &[Vec3]) -> Option<Overlap> {
+    /// The size of the smaller body of a pair, in metres.
+    fn smaller_size(&self, encounters: &[Encounter], pair: &SegmentPair) -> f32 {
+        let size = |at: SegmentRef| self.entries.get(encounters[at.body].handle.0).map_or(0.0, |entry| entry.size);
+        size(pair.a).min(size(pair.b))
+    }
+
+    fn overlap(
+        &self,
+        encounters: &[Encounter],
+        pair: &SegmentPair,
+        x: &[Vec3],
+        y: &[Vec3],
+        margin: f32,
+    ) -> Option<Overlap> {
         let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
         let side = match pair.a.body == pair.b.body {
             true => SkinSide::inner,
             false => SkinSide::whole,
         };
         let (first, second) = (side(a, pair.a.segment, x), side(b, pair.b.segment, y));
-        Some(Overlap::between(first, second, pair.normal, pair.along.unwrap_or(Vec3::ZERO)))
+        Some(Overlap::within(first, second, pair.normal, pair.along.unwrap_or(Vec3::ZERO), margin))
     }
 
     /// The part of an overlap by which the first skin yields: its compliance over that of both.

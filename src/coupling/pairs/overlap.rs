@@ -43,7 +43,8 @@ pub struct OverlapPoint {
     pub vertex: u32,
     /// Where it is.
     pub position: Vec3,
-    /// How far it must move along its way out (the normal for the first skin, against it for the second), in metres.
+    /// How far it must move along its way out (the normal for the first skin, against it for the second), in metres; below 0
+    /// for a vertex that is so far outside still.
     pub depth: f32,
 }
 
@@ -60,19 +61,29 @@ impl Overlap {
     /// Compares two skins along the unit direction `normal`, from the second to the first, in the frame that it makes
     /// with `along` (see `frame_of`).
     pub fn between(a: SkinSide<'_>, b: SkinSide<'_>, normal: Vec3, along: Vec3) -> Self {
-        let frame = frame_of(normal, along);
-        let down = Mat3::from_cols(frame.x_axis, -frame.y_axis, -frame.z_axis);
-        Self { a: inside(a, b, frame), b: inside(b, a, down) }
+        Self::within(a, b, normal, along, 0.0)
     }
 
-    /// True where no vertex is inside.
+    /// As [`Overlap::between`], with the vertices that would be inside if the skins were `margin` metres nearer to each other.
+    pub fn within(a: SkinSide<'_>, b: SkinSide<'_>, normal: Vec3, along: Vec3, margin: f32) -> Self {
+        let frame = frame_of(normal, along);
+        let down = Mat3::from_cols(frame.x_axis, -frame.y_axis, -frame.z_axis);
+        Self { a: inside(a, b, frame, margin), b: inside(b, a, down, margin) }
+    }
+
+    /// True where there is no vertex.
     pub fn is_empty(&self) -> bool {
         self.a.is_empty() && self.b.is_empty()
     }
 
-    /// Depth of the deepest vertex.
+    /// Depth of the deepest vertex; 0 where none is inside.
     pub fn depth(&self) -> f32 {
         self.a.iter().chain(&self.b).map(|p| p.depth).fold(0.0, f32::max)
+    }
+
+    /// Depth of the deepest vertex, below 0 where the nearest is that far outside; minus infinity where there is none.
+    pub fn closeness(&self) -> f32 {
+        self.a.iter().chain(&self.b).map(|p| p.depth).fold(f32::NEG_INFINITY, f32::max)
     }
 
     /// The lowest height of the first skin and the highest of the second within the overlap, along `normal`.
@@ -97,9 +108,10 @@ pub fn frame_of(normal: Vec3, along: Vec3) -> Mat3 {
     Mat3::from_cols(x, normal.cross(x), normal)
 }
 
-/// The vertices of `own` inside `other`, whose surface faces along the frame's z axis where they come out.
-fn inside(own: SkinSide<'_>, other: SkinSide<'_>, frame: Mat3) -> Vec<OverlapPoint> {
+/// The vertices of `own` that `margin` brings inside `other`, whose surface faces along the frame's z axis where they come out.
+fn inside(own: SkinSide<'_>, other: SkinSide<'_>, frame: Mat3, margin: f32) -> Vec<OverlapPoint> {
     let (low, high) = bounds(&other);
+    let (low, high) = (low - margin, high + margin);
     let near: Vec<(u32, Vec3)> = own
         .vertices
         .iter()
@@ -115,7 +127,7 @@ fn inside(own: SkinSide<'_>, other: SkinSide<'_>, frame: Mat3) -> Vec<OverlapPoi
     let corners = |&t: &u32| other.triangles[t as usize].map(|v| other.positions[v as usize]);
     let map = HeightMap::new(frame, from, to, other.members.iter().map(corners));
     let point = |(vertex, position)| {
-        let depth = map.exit(position)?;
+        let depth = map.exit(position - frame.z_axis * margin)? - margin;
         Some(OverlapPoint { vertex, position, depth })
     };
     near.into_iter().filter_map(point).collect()
