@@ -21,6 +21,9 @@ pub struct Penetration {
     pub part: usize,
     /// How far it must move along the contact's direction.
     pub depth: f32,
+    /// The part of this way that leads through the obstacle, from 0 to 1: how much the point counts. Skin that comes into the
+    /// shadow of a thin part from the side counts nothing at first.
+    pub counts: f32,
 }
 
 /// One segment's penetration of one part, or of several that touch each other and push the same way.
@@ -147,6 +150,7 @@ pub fn find_guards(
                 point: SkinPoint::vertex(vertex),
                 part: near.part,
                 depth: -distance.max(0.0),
+                counts: 1.0,
             })
         };
         let mut points: Vec<Penetration> = skin.vertices.iter().filter_map(close).collect();
@@ -251,7 +255,7 @@ impl Contact {
     fn guarding(body: &ElasticBody, near: Proximity, mut points: Vec<Penetration>, guards: f32) -> Self {
         points.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.point.vertices.cmp(&b.point.vertices)));
         let out = |p: &Penetration| p.point.position(body.positions()) + near.normal * p.depth;
-        let weigh = |p: &Penetration| (p.depth + guards).max(f32::MIN_POSITIVE);
+        let weigh = |p: &Penetration| (p.depth * p.counts + guards).max(f32::MIN_POSITIVE);
         let weight: f32 = points.iter().map(weigh).sum();
         let centre = points.iter().map(|p| out(p) * weigh(p)).sum::<Vec3>() / weight;
         let spread: f32 = points.iter().map(|p| out(p).distance_squared(centre) * weigh(p)).sum();
@@ -334,7 +338,7 @@ impl Contact {
             }
             let distances = touched.iter().map(|&part| (parts[part].placed.distance(x).0, part));
             let (distance, part) = distances.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some(Penetration { point: SkinPoint::vertex(vertex), part, depth: -distance })
+            Some(Penetration { point: SkinPoint::vertex(vertex), part, depth: -distance, counts: 1.0 })
         };
         body.skins()[usize::from(self.near.segment)].vertices.iter().filter_map(here).collect()
     }
@@ -429,7 +433,8 @@ fn find_penetrations(
         if let Some(depth) = penetration(part, near, x, facing, reach)
             && depth > tolerance
         {
-            vertices.push(Penetration { point: SkinPoint::vertex(vertex), part: near.part, depth });
+            let counts = part.share_inside(x + near.normal * depth, near.normal, depth);
+            vertices.push(Penetration { point: SkinPoint::vertex(vertex), part: near.part, depth, counts });
         }
     }
     vertices
@@ -469,7 +474,7 @@ fn find_pierced(
         let [Some(a), Some(b), Some(c)] = vertices.map(|v| heights[v as usize]) else { continue };
         let corners = vertices.map(|v| positions[v as usize]);
         if let Some((point, depth)) = pierced(&part.placed, vertices, corners, [a, b, c], tolerance) {
-            found.push(Penetration { point, part: near.part, depth });
+            found.push(Penetration { point, part: near.part, depth, counts: 1.0 });
         }
     }
     found

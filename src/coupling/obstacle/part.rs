@@ -111,6 +111,15 @@ impl ObstaclePart {
         Some(reach - hit)
     }
 
+    /// The part of a way of this length that lies inside, from 0 to 1; it ends at `end`, where it leaves the part along
+    /// `direction` (unit). All of a way out of a piece of a surface does.
+    pub fn share_inside(&self, end: Vec3, direction: Vec3, length: f32) -> f32 {
+        if self.face.is_some() || length <= 0.0 {
+            return 1.0;
+        }
+        self.exit(end, -direction, length).map_or(0.0, |inside| (inside / length).clamp(0.0, 1.0))
+    }
+
     /// True for a piece of a surface with a solid side.
     pub fn is_piece(&self) -> bool {
         self.face.as_ref().is_some_and(|face| !face.two_sided)
