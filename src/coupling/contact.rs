@@ -64,6 +64,12 @@ pub fn penetration(part: &ObstaclePart, near: &Proximity, x: Vec3, facing: f32, 
     part.exit(x, near.normal, flesh.min(reach))
 }
 
+/// How much skin outside of a part counts that faces it by this cosine between its normal and the way out: from nothing, where
+/// [`penetration`] begins to see it, to all, where it faces the part twice as much.
+pub fn faces(facing: f32) -> f32 {
+    (-facing / FACING_AWAY - 1.0).clamp(0.0, 1.0)
+}
+
 /// Least cosine between the skin's normal and the way into the part for skin that faces the part.
 const FACING_AWAY: f32 = 0.2;
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rayon::prelude::*;
 
-use super::contact::{Proximity, penetration};
+use super::contact::{Proximity, faces, penetration};
 use super::obstacle::ObstaclePart;
 use super::piercing::{Height, pierced};
 use super::skin_point::SkinPoint;
@@ -21,8 +21,8 @@ pub struct Penetration {
     pub part: usize,
     /// How far it must move along the contact's direction.
     pub depth: f32,
-    /// The part of this way that leads through the obstacle, from 0 to 1: how much the point counts. Skin that comes into the
-    /// shadow of a thin part from the side counts nothing at first.
+    /// How much the point counts, from 0 to 1. Skin that comes into the shadow of a thin part from the side counts nothing at
+    /// first.
     pub counts: f32,
 }
 
@@ -433,7 +433,7 @@ fn find_penetrations(
         if let Some(depth) = penetration(part, near, x, facing, reach)
             && depth > tolerance
         {
-            let counts = part.share_inside(x + near.normal * depth, near.normal, depth);
+            let counts = if part.contains(x) { 1.0 } else { part.through(x, near.normal, depth) * faces(facing) };
             vertices.push(Penetration { point: SkinPoint::vertex(vertex), part: near.part, depth, counts });
         }
     }

@@ -97,6 +97,7 @@ pub(super) fn solve_pass(
         eprintln!("  pass steps {} way {:?} score {} ", pass.steps, way, best.0);
         for (i, c) in contacts.iter().enumerate() {
             let CollisionField::Hugging(f) = &pass.fields[i].field else { continue };
+            if std::env::var("PTS").is_ok() && i == 0 { for p in c.points.iter() { eprintln!("      PT {:?} depth {:.5} counts {:.3} at {:.4?}", p.point.vertices, p.depth, p.counts, p.point.position(body.positions()).to_array()); } }
             if true {
             eprintln!("    seg {} part {} n {:.2?} c {:.3?} r {:.3} depth {:.4} guards {:.3} s {:.4} pts {} pierced {} gauge {:.3?} w {:.3} spread {:.2} lip {:.2}", c.near.segment, c.near.part, c.near.normal.to_array(), c.centre.to_array(), c.radius, c.depth(), c.guards, strength[i], c.points.len(), c.pierced, (f.gauge-c.centre).to_array(), f.width, f.spread.share, f.lipschitz()); }
         }

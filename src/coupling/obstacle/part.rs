@@ -111,13 +111,15 @@ impl ObstaclePart {
         Some(reach - hit)
     }
 
-    /// The part of a way of this length that lies inside, from 0 to 1; it ends at `end`, where it leaves the part along
-    /// `direction` (unit). All of a way out of a piece of a surface does.
-    pub fn share_inside(&self, end: Vec3, direction: Vec3, length: f32) -> f32 {
-        if self.face.is_some() || length <= 0.0 {
-            return 1.0;
-        }
-        self.exit(end, -direction, length).map_or(0.0, |inside| (inside / length).clamp(0.0, 1.0))
+    /// How well a way from `x` along `direction` (unit) leads through the part, from 0, where it only touches it, to 1, where it
+    /// is inside by a quarter of its length somewhere. It changes smoothly with `x`.
+    pub fn through(&self, x: Vec3, direction: Vec3, length: f32) -> f32 {
+        let inside = |i: u8| {
+            let along = (f32::from(i) + 0.5) / f32::from(SAMPLES) * length;
+            -self.placed.signed_distance(x + direction * along).0
+        };
+        let deepest = (0..SAMPLES).map(inside).fold(0.0, f32::max);
+        (4.0 * deepest / length.max(f32::MIN_POSITIVE)).min(1.0)
     }
 
     /// True for a piece of a surface with a solid side.
@@ -158,6 +160,9 @@ impl ObstaclePart {
         if projection.is_inside { 0.0 } else { (projection.point.distance(x) - self.border).max(0.0) }
     }
 }
+
+/// A way through a part is looked at in this many places.
+const SAMPLES: u8 = 8;
 
 /// How far along a ray (unit `direction`) a hull begins, 0 where the ray starts inside; none where it is not within
 /// `reach`. Exact, where parry's search along a ray ends somewhere near the surface.
