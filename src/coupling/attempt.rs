@@ -32,6 +32,10 @@ pub(super) fn attempt(
             add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
         }
         report.left = contacts.iter().map(|contact| contact.shortest_depth(body, parts)).fold(0.0, f32::max);
+        if !small {
+            // Triangles may be pierced deeper.
+            report.left = report.left.max(SMALL * size);
+        }
         if report.left < best.worst {
             best = Best { worst: report.left, state: body.collision_state(), passes: report.passes };
         }
