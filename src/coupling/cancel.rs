@@ -1,6 +1,7 @@
 //! Penetration cancellation: the skin is pushed out until it touches (section 4), in the first of several ways that leaves
 //! nothing over.
 
+use super::again::CancelMemory;
 use super::attempt::attempt;
 use super::contact::Proximity;
 use super::folds::count_folds;
@@ -88,7 +89,7 @@ pub fn cancel(
     if settings.placement == Placement::Literal {
         return literal(body, parts, near, size, settings);
     }
-    let softness = settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS);
+    let softness = softness_of(body, settings);
     let start = body.collision_state();
     if std::env::var("DBG").is_ok() { eprintln!("CANCEL at {:?} size {size}", body.motions()[0].translation); }
     let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
@@ -116,6 +117,33 @@ pub fn cancel(
     let Some((_, report, state)) = best else { return CancelReport::default() };
     body.resume(&state);
     report
+}
+
+/// As [`cancel`], but where hardly anything has moved since the step before, with the passes of that step.
+///
+/// A body that lies still does not change its shape because the solve came out another way. `memory` is the body's own; after
+/// the step it is to be told what was done, by [`CancelMemory::remember`].
+pub fn cancel_again(
+    memory: &CancelMemory,
+    body: &mut ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    size: f32,
+    settings: &CancelSettings,
+) -> CancelReport {
+    let start = body.collision_state();
+    if settings.placement == Placement::Hugging
+        && let Some(report) = memory.again(body, parts, near, size, settings)
+    {
+        return report;
+    }
+    body.resume(&start);
+    cancel(body, parts, near, size, &CancelSettings { first_way: memory.way, ..*settings })
+}
+
+/// The softness of the collision fields, within its bounds.
+pub(super) fn softness_of(body: &ElasticBody, settings: &CancelSettings) -> f32 {
+    settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS)
 }
 
 /// What is wrong with the outcome of a way; of two, the lower is the better one. What comes first counts first.

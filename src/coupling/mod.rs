@@ -2,6 +2,7 @@
 //!
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
+mod again;
 mod attempt;
 mod cancel;
 mod closing;
@@ -20,7 +21,8 @@ pub mod procdef;
 mod skin_point;
 mod strength;
 
-pub use cancel::{CancelReport, CancelSettings, Placement, cancel};
+pub use again::CancelMemory;
+pub use cancel::{CancelReport, CancelSettings, Placement, cancel, cancel_again};
 pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};

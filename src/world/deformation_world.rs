@@ -12,7 +12,7 @@ use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::self_pairs;
 use crate::coupling::{
-    CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
+    CancelMemory, CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
     PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
@@ -111,8 +111,8 @@ pub(super) struct Entry {
     pub memories: ContactMemories,
     /// Segments of the body that may touch each other.
     pub self_pairs: Arc<BTreeSet<(usize, usize)>>,
-    /// How the last cancellation went about its work.
-    pub way: usize,
+    /// What the last cancellation did.
+    pub cancelled: CancelMemory,
     /// For the measurement of the time coherence.
     pub coherence: CoherenceMemory,
     /// False until the body has been placed on its rigid bodies.
@@ -213,7 +213,7 @@ impl DeformationWorld {
             ragdoll,
             groups,
             memories: ContactMemories::new(),
-            way: 0,
+            cancelled: CancelMemory::default(),
             self_pairs,
             coherence: CoherenceMemory::default(),
             placed,

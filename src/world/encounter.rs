@@ -5,7 +5,7 @@ use rapier3d::parry::bounding_volume::Aabb;
 use super::deformation_world::{Circumstances, ElasticBodyHandle};
 use super::report::{BodyReport, Frozen};
 use crate::coupling::{CancelReport, ObstaclePart, Proximity, TimeCoherence};
-use crate::math::Pose;
+use crate::math::{Pose, Vec3};
 
 /// What one body meets in this step.
 pub(super) struct Encounter {
@@ -21,6 +21,8 @@ pub(super) struct Encounter {
     pub near: Vec<Proximity>,
     /// Stiffness of the whole body on its contacts in N/m.
     pub stiffness: f32,
+    /// The skin before the cancellation.
+    pub before: Vec<Vec3>,
     pub cancelled: CancelReport,
     /// Deepest overlap with another elastic body, or with itself, that is left, in metres.
     pub pair_depth: f32,
@@ -47,6 +49,7 @@ impl Encounter {
             obstacles: 0,
             near: Vec::new(),
             stiffness: f32::INFINITY,
+            before: Vec::new(),
             cancelled: CancelReport::default(),
             pair_depth: 0.0,
             coherence: TimeCoherence::default(),

@@ -14,7 +14,7 @@ use super::encounter::Encounter;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, measure,
+    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, cancel_again, measure,
     obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts, remember_skin_contacts,
     skin_contacts,
 };
@@ -146,6 +146,11 @@ impl DeformationWorld {
             jobs.par_iter_mut().for_each(|(entry, encounter)| cancel_one(entry, encounter, &settings));
             pairs = self.find_pairs(encounters);
         }
+        let all = vec![true; encounters.len()];
+        for (entry, encounter) in self.active_mut(encounters, &all) {
+            let before = std::mem::take(&mut encounter.before);
+            entry.cancelled.remember(before, &entry.body, &encounter.parts, &encounter.cancelled);
+        }
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);
             self.measure_coherence(encounters, &parted);
@@ -227,14 +232,22 @@ fn read_motions(entry: &Entry, bodies: &RigidBodySet) -> Result<Vec<Pose>, Froze
 /// Cancels what one body penetrates, in addition to what was cancelled before.
 fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSettings) {
     if entry.body.settings.enabled {
-        let settings = CancelSettings { first_way: entry.way, ..*settings };
-        let report = cancel(&mut entry.body, &encounter.parts, &encounter.near, entry.size, &settings);
-        if encounter.cancelled.contacts.is_empty() {
-            entry.way = report.way;
+        let (parts, near, size) = (&encounter.parts, &encounter.near, entry.size);
+        let first = encounter.before.is_empty();
+        let report = if first {
+            encounter.before = entry.body.positions().to_vec();
+            cancel_again(&entry.cancelled, &mut entry.body, parts, near, size, settings)
+        } else {
+            let settings = CancelSettings { first_way: encounter.cancelled.way, ..*settings };
+            cancel(&mut entry.body, parts, near, size, &settings)
+        };
+        if first {
+            encounter.cancelled.way = report.way;
             remember_leaders(&report.contacts, &encounter.parts, &mut entry.memories);
         }
         encounter.cancelled.passes += report.passes;
         encounter.cancelled.left = report.left;
+        encounter.cancelled.gap = encounter.cancelled.gap.max(report.gap);
         encounter.cancelled.contacts.extend(report.contacts);
     }
     if !entry.body.is_finite() {
