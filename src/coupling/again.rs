@@ -111,7 +111,7 @@ impl CancelMemory {
             // Between the vertices the skin may touch.
             report.gap = report.gap.min(widest_held_gap(body, parts, size, &report));
         }
-        (report.gap <= WORTH_CLOSING * settings.gap_tolerance * size).then_some(report)
+        (report.gap <= settings.gap_tolerance * size).then_some(report)
     }
 
     /// Contacts that were pushed in the step before are those that are now.
