@@ -111,7 +111,7 @@ impl CancelMemory {
             // Between the vertices the skin may touch.
             report.gap = report.gap.min(widest_held_gap(body, parts, size, &report));
         }
-        (report.gap <= settings.gap_tolerance * size).then_some(report)
+        (report.gap <= WORTH_CLOSING * settings.gap_tolerance * size).then_some(report)
     }
 
     /// Contacts that were pushed in the step before are those that are now.
@@ -128,7 +128,7 @@ impl CancelMemory {
         }
     }
 
-    /// The farthest that the skin or a part near it has moved, in metres.
+    /// The farthest that the skin or a part that it touched has moved, in metres.
     fn motion(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> f32 {
         if self.before.len() != body.positions().len() {
             return f32::INFINITY;
@@ -142,8 +142,11 @@ impl CancelMemory {
             let moved = |x: Vec3| (*old * new.inverse_transform_point(x)).distance(x);
             Some(ends.into_iter().map(moved).fold(0.0, f32::max))
         };
-        let parts = parts.iter().filter(|part| part.id.collider.0 != u32::MAX).filter_map(of_part);
-        parts.fold(skin.sqrt(), f32::max)
+        // Whatever comes near without having been touched yet is found by the contacts.
+        let touched = |part: &&ObstaclePart| {
+            part.id.collider.0 != u32::MAX && self.pushed.iter().any(|known| known.parts.contains(&part.id))
+        };
+        parts.iter().filter(touched).filter_map(of_part).fold(skin.sqrt(), f32::max)
     }
 }
 
