@@ -5,7 +5,7 @@ use super::again::CancelMemory;
 use super::attempt::attempt;
 use super::contact::Proximity;
 use super::folds::count_folds;
-use super::measure::widest_held_gap;
+use super::measure::{ROUGHLY, widest_held_gap};
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, find_contacts};
 use super::strength::Way;
@@ -192,7 +192,8 @@ impl CancelReport {
     pub(super) fn hold(&mut self, pushing: &Contact, strength: f32) {
         let parts = pushing.parts();
         for contact in &mut self.contacts {
-            if contact.near.segment == pushing.near.segment && !contact.parts().is_disjoint(&parts) {
+            let along = contact.near.normal.dot(pushing.near.normal) > ROUGHLY;
+            if along && contact.near.segment == pushing.near.segment && !contact.parts().is_disjoint(&parts) {
                 contact.held = true;
                 contact.pushed += strength;
             }

@@ -26,7 +26,11 @@ pub(super) fn close_gaps(
         let pulled = watched.iter().filter(|(contact, gap)| *gap > close && contact.pushed > 0.0);
         let widest = pulled.map(|(_, gap)| *gap).fold(0.0, f32::max);
         // Between the vertices the skin may touch.
-        if widest <= 0.0 || widest_held_gap(body, parts, size, report) <= close {
+        if widest <= 0.0 {
+            return;
+        }
+        let held = widest_held_gap(body, parts, size, report);
+        if held <= close {
             return;
         }
         let mut all: Vec<Contact> = watched.into_iter().map(|(contact, _)| contact).collect();
@@ -48,7 +52,7 @@ pub(super) fn close_gaps(
             taken = 2;
             inside = left_over(body, parts, near, tolerance);
         }
-        if !inside.is_empty() || widest_gap(body, parts, &report.contacts) >= widest {
+        if !inside.is_empty() || widest_held_gap(body, parts, size, report) >= held {
             body.resume(&before);
             return;
         }
