@@ -151,7 +151,7 @@ impl CancelMemory {
 }
 
 /// What moves by less than this part of the size in a step lies still.
-const TREMOR: f32 = 2.0e-3;
+const TREMOR: f32 = 5.0e-4;
 
 /// More than this many passes are solved for anew.
 const MOST_PASSES: u32 = 8;

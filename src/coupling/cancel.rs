@@ -91,7 +91,6 @@ pub fn cancel(
     }
     let softness = softness_of(body, settings);
     let start = body.collision_state();
-    if std::env::var("DBG").is_ok() { eprintln!("CANCEL at {:?} size {size}", body.motions()[0].translation); }
     let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
     let first = settings.first_way.min(WAYS.len() - 1);
     let others = (0..WAYS.len()).filter(|&way| way != first);
@@ -103,7 +102,6 @@ pub fn cancel(
         }
         report.way = way;
         let grade = Grade::of(&report, (&*body, parts), &start, size, settings);
-        if std::env::var("DBG").is_ok() { eprintln!("  way {way} grade {grade:?}"); }
         let good = grade.open <= 0.0 && grade.folds == 0;
         if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
             best = Some((grade, report, body.collision_state()));

@@ -21,7 +21,8 @@ pub struct Bar {
 ///
 /// Where the planes fix a direction well this is the point nearest to all of them. Planes that are nearly parallel meet far
 /// off, and on the other side when they tilt the other way: such a direction, with an eigenvalue of `N` far below `ε`, is
-/// left alone.
+/// left alone. `ε` is a quarter of the mean of the two larger eigenvalues, and no less than a quarter: many planes about one axis,
+/// as of a ring, tilt together, and the point where they meet runs along it.
 pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = Bar>, reach: f32) -> Vec3 {
     let mut matrix = Mat3::ZERO;
     let mut right = Vec3::ZERO;
@@ -30,7 +31,7 @@ pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = Bar>, reach: f3
         right += other.normal * (other.weight * other.normal.dot(other.point - point));
     }
     let trace = matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z;
-    let ridge = std::env::var("RIDGE").ok().and_then(|s| s.parse::<f32>().ok()).unwrap_or(NEARLY_PARALLEL) * (0.5 * trace).max(1.0);
+    let ridge = NEARLY_PARALLEL * (0.5 * trace).max(1.0);
     let ridge = Mat3::from_diagonal(Vec3::splat(ridge * ridge));
     point + (matrix * ((matrix * matrix + ridge).inverse() * right)).clamp_length_max(reach)
 }
@@ -61,7 +62,7 @@ pub fn spread_between(normal: Vec3, others: impl IntoIterator<Item = Bar>) -> Sp
 /// What the bars are compared with: a single wall bars its way by two thirds.
 const UNBARRED: f32 = 0.5;
 
-/// The eigenvalue `ε` at which planes fix a direction by half.
+/// The eigenvalue `ε` at which planes fix a direction by half, as a part of half of the trace of `N`, and of 1 where that is more.
 const NEARLY_PARALLEL: f32 = 0.25;
 
 fn outer(n: Vec3) -> Mat3 {

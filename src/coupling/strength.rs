@@ -66,7 +66,6 @@ pub(super) fn solve_pass(
             break;
         }
         let score = if missed { f32::INFINITY } else { openness(&outcome, &strength, &aim, least) };
-        if std::env::var("DBG").is_ok() && n < 4 { eprintln!("     round s {strength:.4?} gaps {:.4?} points {:?} missed {missed} score {score} fraction {fraction} target {target:.3?}", outcome.iter().map(|o| o.gap).collect::<Vec<_>>(), outcome.iter().map(|o| o.point.position(body.positions()) - contacts[0].centre).collect::<Vec<_>>()); }
         if score < best.0 || missed {
             best = (score, strength.clone());
             let matrix = influence(body, &pass, contacts, &outcome, &strength);
@@ -93,15 +92,6 @@ pub(super) fn solve_pass(
     }
     let strength = best.1;
     set_strengths(&mut pass, contacts, &strength, body, settings);
-    if std::env::var("DBG").is_ok() {
-        eprintln!("  pass steps {} way {:?} score {} ", pass.steps, way, best.0);
-        for (i, c) in contacts.iter().enumerate() {
-            let CollisionField::Hugging(f) = &pass.fields[i].field else { continue };
-            if std::env::var("PTS").is_ok() && i == 0 { for p in c.points.iter() { eprintln!("      PT {:?} depth {:.5} counts {:.3} at {:.4?}", p.point.vertices, p.depth, p.counts, p.point.position(body.positions()).to_array()); } }
-            if true {
-            eprintln!("    seg {} part {} n {:.2?} c {:.3?} r {:.3} depth {:.4} guards {:.3} s {:.4} pts {} pierced {} gauge {:.3?} w {:.3} spread {:.2} lip {:.2}", c.near.segment, c.near.part, c.near.normal.to_array(), c.centre.to_array(), c.radius, c.depth(), c.guards, strength[i], c.points.len(), c.pierced, (f.gauge-c.centre).to_array(), f.width, f.spread.share, f.lipschitz()); }
-        }
-    }
     pass.fields.retain(|entry| entry.field.displacement() != Vec3::ZERO);
     (pass, strength)
 }

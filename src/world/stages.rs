@@ -154,7 +154,6 @@ impl DeformationWorld {
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);
             self.measure_coherence(encounters, &parted);
-            if std::env::var("DBG").is_ok() { for e in encounters.iter() { eprintln!("FRAME {:?} {:?}", e.handle, e.coherence); } }
         }
     }
 
