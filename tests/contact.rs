@@ -3,7 +3,7 @@
 mod common;
 
 use common::ball_rig;
-use pliant::coupling::{CancelSettings, Placement, RagdollStart};
+use pliant::coupling::{Bar, CancelSettings, Placement, RagdollStart, gauge_point};
 use pliant::math::{Pose, Vec3};
 use pliant::spring::SpringCoefficients;
 use pliant::world::{BodyReport, DeformationWorld, ElasticBodyHandle};
@@ -175,4 +175,27 @@ fn a_body_that_moves_twice_its_core_in_a_step_does_not_tunnel_either() {
             assert!(drop.centre().x < 0.0, "start {offset}, frame {frame}: went through to {}", drop.centre());
         }
     }
+}
+
+#[test]
+fn where_many_planes_tilt_together_about_one_axis_the_gauge_point_does_not_run_along_it() {
+    // Twelve planes of a ring about y, which tilt a little: they meet at the tip of a steep cone, far off.
+    let gauge = |tilt: f32| {
+        let bars = (0..12).map(|i| {
+            let (sin, cos) = (i as f32 * std::f32::consts::TAU / 12.0).sin_cos();
+            let out = Vec3::new(cos, 0.0, sin);
+            Bar { point: out * 0.3, normal: (Vec3::Y * tilt - out).normalize(), weight: 1.0 }
+        });
+        gauge_point(Vec3::X * 0.3, bars.skip(1), 10.0)
+    };
+    // Across the axis they fix the point: it lies on the axis, but for what ε takes off (a sixteenth) and the missing plane does.
+    assert!(gauge(0.0).length() < 0.05, "{}", gauge(0.0));
+    for step in 1..50 {
+        let tilt = 0.01 * step as f32;
+        let (a, b) = (gauge(tilt), gauge(tilt - 0.01));
+        assert!(a.distance(b) < 0.03, "from {b} to {a} at a tilt of {tilt}");
+    }
+    // Two walls of a corner still fix it.
+    let corner = [(Vec3::X, Vec3::X), (Vec3::Z, Vec3::Z)].map(|(point, normal)| Bar { point, normal, weight: 1.0 });
+    assert!(gauge_point(Vec3::ZERO, corner, 10.0).distance(Vec3::new(1.0, 0.0, 1.0)) < 0.1);
 }

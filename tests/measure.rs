@@ -3,8 +3,8 @@
 mod common;
 
 use pliant::coupling::{
-    CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId, SMOOTH, SkinsMet,
-    cancel, convex_parts, measure, proximities,
+    CancelMemory, CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId,
+    SMOOTH, SkinsMet, cancel, cancel_again, convex_parts, measure, proximities,
 };
 use pliant::elastic::ElasticBody;
 use pliant::math::{Pose, Quat, Vec3};
@@ -119,4 +119,50 @@ fn a_cancellation_that_is_left_out_for_a_step_is_seen_as_a_pop() {
     memory.forget();
     memory.begin(&body);
     assert_eq!(memory.end(&body, &parts, SkinsMet::default(), &CancelReport::default(), RADIUS, &settings).ratio, 0.0);
+}
+
+/// A ball between two planks that stand askew, and what was done about it.
+fn between_planks(shift: Vec3, memory: &CancelMemory) -> (ElasticBody, Vec<ObstaclePart>, CancelReport, Vec<Vec3>) {
+    let mut body = ball(Pose::from_translation(shift));
+    let plank = SharedShape::cuboid(0.1, 2.0, 2.0);
+    let mut parts = part(&plank, Pose::from_parts(Vec3::X * 0.45, Quat::from_rotation_z(0.3)));
+    parts.extend(part(&plank, Pose::from_parts(Vec3::X * -0.5, Quat::from_rotation_z(-0.2))));
+    parts[1].id.collider = (1, 0);
+    let near = proximities(&body, &parts, 0.1, &mut ContactMemories::new());
+    let before = body.positions().to_vec();
+    let report = cancel_again(memory, &mut body, &parts, &near, RADIUS, &CancelSettings::default());
+    (body, parts, report, before)
+}
+
+#[test]
+fn a_body_that_lies_still_keeps_its_passes_and_stays_out_of_the_obstacles() {
+    let mut memory = CancelMemory::default();
+    let (first, parts, report, before) = between_planks(Vec3::ZERO, &memory);
+    assert!(report.passes > 0 && report.left == 0.0, "{report:?}");
+    memory.remember(before, &first, &parts, &report, &CancelSettings::default());
+    let tremor = Vec3::new(0.7, -0.5, 0.5) * (1.0e-4 * RADIUS);
+    let (second, parts, again, _) = between_planks(tremor, &memory);
+    // What was done is done again to the bit; a correction may follow.
+    let passes = &first.palette().passes;
+    assert_eq!(&second.palette().passes[..passes.len()], &passes[..]);
+    let change = |(a, b): (&Vec3, &Vec3)| a.distance(*b);
+    let change = first.positions().iter().zip(second.positions()).map(change).fold(0.0, f32::max);
+    assert!(change < 20.0 * tremor.length(), "the skin moves by {change}");
+    let figures = measure(&second, &parts, RADIUS, &again);
+    assert!(figures.max_depth_after < 1e-3 && figures.max_gap < 5e-3, "{figures:?}");
+}
+
+#[test]
+fn a_body_that_moves_on_is_dealt_with_anew() {
+    let mut memory = CancelMemory::default();
+    let (first, parts, report, before) = between_planks(Vec3::ZERO, &memory);
+    memory.remember(before, &first, &parts, &report, &CancelSettings::default());
+    let shift = Vec3::new(0.02, 0.0, 0.0);
+    let (moved, ..) = between_planks(shift, &memory);
+    let (fresh, ..) = between_planks(shift, &CancelMemory::default());
+    assert_eq!(moved.positions(), fresh.positions());
+    // Nor does a memory of another skin, or a forgotten one, do any harm.
+    memory.forget();
+    let (forgotten, ..) = between_planks(shift, &memory);
+    assert_eq!(forgotten.positions(), fresh.positions());
 }

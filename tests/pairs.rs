@@ -108,3 +108,31 @@ fn a_heap_of_twenty_soft_balls_is_not_seen_in_each_other_and_slows_down() {
     // Balls on top still roll off slowly: 0.12 m/s were measured after four seconds, 0.11 after ten.
     assert!(fastest < 0.2, "{fastest} m/s in the last second");
 }
+
+#[test]
+fn skins_that_nearly_touch_are_known_before_they_do() {
+    use pliant::coupling::{Overlap, SkinSide};
+    use pliant::elastic::ElasticBody;
+    let at = |x: f32| {
+        let mut body = ElasticBody::new(ball_rig(RADIUS, 1.2, SpringCoefficients::new(3.0, 0.3)));
+        body.place(&[Pose::from_translation(Vec3::X * x)]);
+        body.build_palette();
+        body.deform_springs();
+        body
+    };
+    let second = at(0.0);
+    for gap in [-0.05, -0.01, 0.005, 0.02, 0.04] {
+        let first = at(2.0 * RADIUS + gap);
+        let sides = [&first, &second].map(|body| SkinSide::whole(body, 0, body.positions()));
+        let near = Overlap::within(sides[0], sides[1], Vec3::X, Vec3::ZERO, 0.03);
+        let deep = Overlap::between(sides[0], sides[1], Vec3::X, Vec3::ZERO);
+        assert_eq!(deep.is_empty(), gap > 0.0);
+        if gap > 0.03 {
+            assert!(near.is_empty());
+        } else {
+            // The facets of the balls are up to a hundredth of the radius inside of them.
+            assert!((near.closeness() + gap).abs() < 0.01 * RADIUS, "{} for {gap}", near.closeness());
+            assert!((near.depth() - (-gap).max(0.0)).abs() < 0.01 * RADIUS);
+        }
+    }
+}

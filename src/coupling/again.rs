@@ -15,7 +15,7 @@ use super::measure::widest_held_gap;
 use super::obstacle::{ObstaclePart, PartId};
 use super::penetrations::{Contact, SAME_WAY, add_guards, find_contacts, find_guards};
 use super::strength::{Way, solve_pass};
-use crate::elastic::{CollisionPass, ElasticBody};
+use crate::elastic::{CollisionPass, DeformSettings, ElasticBody};
 use crate::math::{Pose, Vec3};
 
 /// What the cancellation of one body leaves for the next step.
@@ -23,6 +23,8 @@ use crate::math::{Pose, Vec3};
 pub struct CancelMemory {
     /// Which way was taken.
     pub way: usize,
+    /// How it was done.
+    settings: Option<(CancelSettings, DeformSettings)>,
     /// The skin before the cancellation.
     before: Vec<Vec3>,
     /// Where the parts around the body were.
@@ -43,8 +45,16 @@ struct Pushed {
 
 impl CancelMemory {
     /// Notes what was done in this step: `before` is the skin before the cancellation, `body` as it is after it.
-    pub fn remember(&mut self, before: Vec<Vec3>, body: &ElasticBody, parts: &[ObstaclePart], report: &CancelReport) {
+    pub fn remember(
+        &mut self,
+        before: Vec<Vec3>,
+        body: &ElasticBody,
+        parts: &[ObstaclePart],
+        report: &CancelReport,
+        settings: &CancelSettings,
+    ) {
         self.way = report.way;
+        self.settings = Some((*settings, body.settings));
         self.before = before;
         self.places = parts.iter().map(|part| (part.id, *part.placed.pose())).collect();
         self.passes = body.palette().passes.clone();
@@ -64,7 +74,7 @@ impl CancelMemory {
     }
 
     /// Takes the passes of the step before once more, and corrects what is left over. None where more has moved than a
-    /// tremor, or where that does not do; then the body's skin is not what it was before.
+    /// tremor, or settings have changed, or where that does not do; then the body's skin is not what it was before.
     pub(super) fn again(
         &self,
         body: &mut ElasticBody,
@@ -73,7 +83,11 @@ impl CancelMemory {
         size: f32,
         settings: &CancelSettings,
     ) -> Option<CancelReport> {
-        if self.passes.is_empty() || self.passes.len() as u32 > MOST_PASSES || self.motion(body, parts) > TREMOR * size {
+        if self.settings != Some((*settings, body.settings)) {
+            return None;
+        }
+        if self.passes.is_empty() || self.passes.len() as u32 > MOST_PASSES || self.motion(body, parts) > TREMOR * size
+        {
             return None;
         }
         let tolerance = settings.depth_tolerance * size;
@@ -88,7 +102,7 @@ impl CancelMemory {
         let mut inside = left_over(body, parts, near, tolerance);
         if !inside.is_empty() {
             let height = inside.iter().map(Contact::depth).fold(0.0, f32::max);
-                if height > SMALL * size {
+            if height > SMALL * size {
                 return None;
             }
             let guards = find_guards(body, parts, near, &inside, height);
@@ -103,7 +117,7 @@ impl CancelMemory {
             inside = left_over(body, parts, near, tolerance);
         }
         if !inside.is_empty() {
-                return None;
+            return None;
         }
         close_gaps(body, parts, near, way, size, settings, &mut report);
         report.gap = widest_gap(body, parts, &report.contacts);

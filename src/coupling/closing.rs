@@ -72,7 +72,12 @@ pub(super) fn widest_gap(body: &ElasticBody, parts: &[ObstaclePart], contacts: &
 }
 
 /// All that is inside: vertices and pierced triangles.
-pub(super) fn left_over(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], tolerance: f32) -> Vec<Contact> {
+pub(super) fn left_over(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    tolerance: f32,
+) -> Vec<Contact> {
     let mut contacts = find_contacts(body, parts, near, tolerance);
     add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
     contacts

@@ -147,7 +147,10 @@ impl SkinPatch {
                 let x = point.position_of(corners);
                 let along = parts[part].exit(x, contact.near.normal, ASKEW * depth);
                 if along.is_some_and(|along| along < ASKEW * depth) {
-                    found.push((Outcome { gap: -along.unwrap_or(depth), point }, Penetration { point, part, depth, counts: 1.0 }));
+                    found.push((
+                        Outcome { gap: -along.unwrap_or(depth), point },
+                        Penetration { point, part, depth, counts: 1.0 },
+                    ));
                 }
             }
         }

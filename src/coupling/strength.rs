@@ -10,7 +10,7 @@ use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, Penetration};
 use super::probes::{Outcome, Probes};
 use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField, SegmentSkin};
-use crate::field::{ConvexPart, PartShape, PlacedPart, HuggingField, Lipschitz, Patch, usual_steps};
+use crate::field::{ConvexPart, HuggingField, Lipschitz, PartShape, Patch, PlacedPart, usual_steps};
 use crate::math::{Pose, Vec3};
 
 /// How passes go about their work.

@@ -12,8 +12,8 @@ use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::self_pairs;
 use crate::coupling::{
-    CancelMemory, CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings, ObstacleError,
-    PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
+    CancelMemory, CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings,
+    ObstacleError, PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;

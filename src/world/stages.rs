@@ -14,8 +14,8 @@ use super::encounter::Encounter;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, cancel_again, measure,
-    obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts, remember_skin_contacts,
+    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, cancel_again,
+    measure, obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts, remember_skin_contacts,
     skin_contacts,
 };
 use crate::math::{Pose, Vec3};
@@ -146,10 +146,11 @@ impl DeformationWorld {
             jobs.par_iter_mut().for_each(|(entry, encounter)| cancel_one(entry, encounter, &settings));
             pairs = self.find_pairs(encounters);
         }
+        let settings = self.settings.cancel;
         let all = vec![true; encounters.len()];
         for (entry, encounter) in self.active_mut(encounters, &all) {
             let before = std::mem::take(&mut encounter.before);
-            entry.cancelled.remember(before, &entry.body, &encounter.parts, &encounter.cancelled);
+            entry.cancelled.remember(before, &entry.body, &encounter.parts, &encounter.cancelled, &settings);
         }
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);

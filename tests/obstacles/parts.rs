@@ -125,3 +125,16 @@ fn the_way_out_along_a_direction_ends_on_the_surface() {
         }
     }
 }
+
+#[test]
+fn what_leads_through_a_thin_part_counts_from_nothing_at_its_side_to_all_in_its_middle() {
+    let wire = SharedShape::capsule_z(1.0, 0.01);
+    let part = &placed(&wire, Pose::IDENTITY)[0];
+    let counts = |aside: f32| part.through(Vec3::new(aside, -0.02, 0.0), Vec3::Y, 0.03);
+    assert!(counts(0.0) > 0.9 && counts(0.0099) < 0.1 && counts(0.0101) == 0.0);
+    for i in 0..200 {
+        let (a, b) = (counts(i as f32 * 1e-4 - 0.01), counts((i + 1) as f32 * 1e-4 - 0.01));
+        // Its own width of 0.02 in two hundred steps: no step may be seen.
+        assert!((a - b).abs() < 0.05, "from {a} to {b}");
+    }
+}
