@@ -143,9 +143,14 @@ impl Limits {
             // A body that lands on tips: skin between two of them is carried over a third.
             "spikes" => Self { gap: 0.037, coherence: 31.0, many_passes: 0.3, ..Self::AIM },
             // Soft balls under four others have no room for their volume.
-            "heap" => {
-                Self { depth: 0.96, piercing: 0.96, gap: 0.053, pairs: f32::INFINITY, coherence: 42.0, many_passes: 0.43 }
-            }
+            "heap" => Self {
+                depth: 0.96,
+                piercing: 0.96,
+                gap: 0.053,
+                pairs: f32::INFINITY,
+                coherence: 42.0,
+                many_passes: 0.43,
+            },
             // Meshes of others: as for the head with another start, the contacts that carry a body through a ring change.
             "spot in a ring" | "max in a ring" | "elephant in a ring" => {
                 Self { coherence: 40.0, many_passes: 0.05, ..Self::AIM }
