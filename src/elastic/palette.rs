@@ -39,7 +39,8 @@ impl CollisionField {
     #[inline]
     pub fn may_reach(&self, x: Vec3) -> bool {
         match self {
-            Self::Hugging(field) => field.patch_reaches(x),
+            // While strengths are solved for, many fields are off.
+            Self::Hugging(field) => field.d != Vec3::ZERO && field.patch_reaches(x),
             Self::Sphere(field) => field.reaches(x),
         }
     }
