@@ -161,8 +161,20 @@ fn a_body_that_moves_on_is_dealt_with_anew() {
     let (moved, ..) = between_planks(shift, &memory);
     let (fresh, ..) = between_planks(shift, &CancelMemory::default());
     assert_eq!(moved.positions(), fresh.positions());
-    // Nor does a memory of another skin, or a forgotten one, do any harm.
+    // A memory that was wiped does no harm either.
     memory.forget();
     let (forgotten, ..) = between_planks(shift, &memory);
     assert_eq!(forgotten.positions(), fresh.positions());
+}
+
+/// The passes of a body that held still were taken again although the obstacle that they were for had gone.
+#[test]
+fn a_dent_goes_with_the_obstacle_that_made_it() {
+    let mut memory = CancelMemory::default();
+    let (first, parts, report, before) = between_planks(Vec3::ZERO, &memory);
+    memory.remember(before, &first, &parts, &report, &CancelSettings::default());
+    let mut alone = ball(Pose::IDENTITY);
+    let undented = alone.positions().to_vec();
+    let report = cancel_again(&memory, &mut alone, &[], &[], RADIUS, &CancelSettings::default());
+    assert_eq!((report.passes, alone.positions()), (0, &undented[..]));
 }

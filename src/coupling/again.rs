@@ -93,7 +93,9 @@ impl CancelMemory {
         let tolerance = settings.depth_tolerance * size;
         let mut report = CancelReport { way: self.way, ..CancelReport::default() };
         report.contacts = find_contacts(body, parts, near, tolerance);
-        self.recognise(&mut report.contacts, parts);
+        if !self.recognise(&mut report.contacts, parts) {
+            return None;
+        }
         for pass in &self.passes {
             body.deform_collision(pass.clone());
             report.passes += 1;
@@ -128,8 +130,10 @@ impl CancelMemory {
         (report.gap <= WORTH_CLOSING * settings.gap_tolerance * size).then_some(report)
     }
 
-    /// Contacts that were pushed in the step before are those that are now.
-    fn recognise(&self, contacts: &mut [Contact], parts: &[ObstaclePart]) {
+    /// Contacts that were pushed in the step before are those that are now. False where one of an obstacle is there no more: what
+    /// was pushed for it must go.
+    fn recognise(&self, contacts: &mut [Contact], parts: &[ObstaclePart]) -> bool {
+        let mut seen = BTreeSet::new();
         for contact in contacts {
             let ids: BTreeSet<PartId> = contact.parts().into_iter().map(|part| parts[part].id).collect();
             let same = |known: &&Pushed| {
@@ -138,8 +142,10 @@ impl CancelMemory {
                     && !known.parts.is_disjoint(&ids)
             };
             let pushed = self.pushed.iter().filter(same).map(|known| known.by).fold(0.0, f32::max);
+            seen.extend(self.pushed.iter().enumerate().filter(|(_, known)| same(known)).map(|(i, _)| i));
             (contact.held, contact.pushed) = (pushed > 0.0, pushed);
         }
+        !self.pushed.is_empty() && seen.len() == self.pushed.len()
     }
 
     /// The farthest that the skin or a part that it touched has moved, in metres.

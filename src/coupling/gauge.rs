@@ -21,7 +21,7 @@ pub struct Bar {
 ///
 /// Where the planes fix a direction well this is the point nearest to all of them. Planes that are nearly parallel meet far
 /// off, and on the other side when they tilt the other way: such a direction, with an eigenvalue of `N` far below `ε`, is
-/// left alone. `ε` is a quarter of the mean of the two larger eigenvalues, and no less than a quarter: many planes about one axis,
+/// left alone. `ε` is a quarter of half the trace of `N`, and no less than a quarter: many planes about one axis,
 /// as of a ring, tilt together, and the point where they meet runs along it.
 pub fn gauge_point(point: Vec3, others: impl IntoIterator<Item = Bar>, reach: f32) -> Vec3 {
     let mut matrix = Mat3::ZERO;

@@ -257,6 +257,7 @@ fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSet
         entry.body.deform_springs();
         entry.body.renew_normals();
         encounter.cancelled = CancelReport::default();
+        entry.cancelled.forget();
         encounter.frozen = Some(Frozen::NotFinite);
     }
 }
