@@ -4,7 +4,7 @@ mod common;
 
 use pliant::coupling::{
     CancelMemory, CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId,
-    SMOOTH, SkinsMet, cancel, cancel_again, convex_parts, measure, proximities,
+    SMOOTH, SkinsMet, cancel, cancel_with_memory, convex_parts, measure, proximities,
 };
 use pliant::elastic::ElasticBody;
 use pliant::math::{Pose, Quat, Vec3};
@@ -130,7 +130,7 @@ fn between_planks(shift: Vec3, memory: &CancelMemory) -> (ElasticBody, Vec<Obsta
     parts[1].id.collider = (1, 0);
     let near = proximities(&body, &parts, 0.1, &mut ContactMemories::new());
     let before = body.positions().to_vec();
-    let report = cancel_again(memory, &mut body, &parts, &near, RADIUS, &CancelSettings::default());
+    let report = cancel_with_memory(memory, &mut body, &parts, &near, RADIUS, &CancelSettings::default());
     (body, parts, report, before)
 }
 
@@ -175,6 +175,6 @@ fn a_dent_goes_with_the_obstacle_that_made_it() {
     memory.remember(before, &first, &parts, &report, &CancelSettings::default());
     let mut alone = ball(Pose::IDENTITY);
     let undented = alone.positions().to_vec();
-    let report = cancel_again(&memory, &mut alone, &[], &[], RADIUS, &CancelSettings::default());
+    let report = cancel_with_memory(&memory, &mut alone, &[], &[], RADIUS, &CancelSettings::default());
     assert_eq!((report.passes, alone.positions()), (0, &undented[..]));
 }

@@ -4,10 +4,12 @@
 //! that each ends touching, then carry the whole skin along.
 
 use super::cancel::{CancelReport, CancelSettings};
-use super::closing::{close_gaps, widest_gap};
+use super::closing::{close_gaps, remaining_gap};
 use super::contact::Proximity;
+use super::find_contacts::{add_piercings, find_contacts, find_piercings};
+use super::guards::{add_guards, find_guards};
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, add_guards, add_piercings, find_contacts, find_guards, find_piercings};
+use super::penetrations::Contact;
 use super::strength::{Way, solve_pass, stride_of};
 use crate::elastic::{CollisionState, ElasticBody};
 
@@ -23,7 +25,8 @@ pub(super) fn attempt(
 ) -> CancelReport {
     let mut report = CancelReport::default();
     let tolerance = settings.depth_tolerance * size;
-    let mut best = Best { worst: f32::INFINITY, state: body.collision_state(), passes: 0 };
+    let nothing = (f32::INFINITY, f32::INFINITY);
+    let mut best = Best { worst: nothing, left: f32::INFINITY, state: body.collision_state(), passes: 0 };
     let mut wide = 0;
     loop {
         let mut contacts = find_contacts(body, parts, near, tolerance);
@@ -32,12 +35,12 @@ pub(super) fn attempt(
             add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
         }
         report.left = contacts.iter().map(|contact| contact.shortest_depth(body, parts)).fold(0.0, f32::max);
-        if !small {
-            // Triangles may be pierced deeper.
-            report.left = report.left.max(SMALL * size);
-        }
-        if report.left < best.worst {
-            best = Best { worst: report.left, state: body.collision_state(), passes: report.passes };
+        // Where triangles were not looked at they may be pierced deeper.
+        let worst = if small { report.left } else { report.left.max(SMALL * size) };
+        let deepest = contacts.iter().map(Contact::depth).fold(0.0, f32::max);
+        if (worst, deepest) < best.worst {
+            let state = body.collision_state();
+            best = Best { worst: (worst, deepest), left: report.left, state, passes: report.passes };
         }
         let stuck = report.passes - best.passes >= PATIENCE;
         if contacts.is_empty() || stuck || report.passes >= settings.max_passes {
@@ -70,15 +73,17 @@ pub(super) fn attempt(
         close_gaps(body, parts, near, way, size, settings, &mut report);
     } else if best.passes < report.passes {
         body.resume(&best.state);
-        (report.passes, report.left) = (best.passes, best.worst);
+        (report.passes, report.left) = (best.passes, best.left);
     }
-    report.gap = widest_gap(body, parts, &report.contacts);
+    report.gap = remaining_gap(body, parts, size, settings, &report);
     report
 }
 
 /// The best state so far.
 struct Best {
-    worst: f32,
+    /// What is left over by the shortest ways out, and by the contacts' own.
+    worst: (f32, f32),
+    left: f32,
     state: CollisionState,
     passes: u32,
 }

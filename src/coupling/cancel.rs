@@ -1,13 +1,14 @@
 //! Penetration cancellation: the skin is pushed out until it touches (section 4), in the first of several ways that leaves
 //! nothing over.
 
-use super::again::CancelMemory;
 use super::attempt::attempt;
+use super::cancel_memory::CancelMemory;
 use super::contact::Proximity;
+use super::find_contacts::find_contacts;
 use super::folds::count_folds;
-use super::measure::{ROUGHLY, widest_held_gap};
+use super::measure::ROUGHLY;
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, find_contacts};
+use super::penetrations::Contact;
 use super::strength::Way;
 use crate::elastic::{CollisionState, ElasticBody};
 
@@ -68,7 +69,7 @@ pub struct CancelReport {
     pub passes: u32,
     /// Depth in metres that no pass could cancel, by the shortest way out; 0 where nothing deeper than the tolerance is left.
     pub left: f32,
-    /// Widest gap in metres that is left between a contact's parts and the skin in that place, as the vertices tell it.
+    /// Widest gap in metres that is left between a contact's parts and the skin in that place; as the vertices tell it where it is small.
     pub gap: f32,
     /// Which way was taken.
     pub way: usize,
@@ -101,7 +102,7 @@ pub fn cancel(
             return report;
         }
         report.way = way;
-        let grade = Grade::of(&report, (&*body, parts), &start, size, settings);
+        let grade = Grade::of(&report, &*body, &start, size, settings);
         let good = grade.open <= 0.0 && grade.folds == 0;
         if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
             best = Some((grade, report, body.collision_state()));
@@ -121,7 +122,7 @@ pub fn cancel(
 ///
 /// A body that lies still does not change its shape because the solve came out another way. `memory` is the body's own; after
 /// the step it is to be told what was done, by [`CancelMemory::remember`].
-pub fn cancel_again(
+pub fn cancel_with_memory(
     memory: &CancelMemory,
     body: &mut ElasticBody,
     parts: &[ObstaclePart],
@@ -158,18 +159,13 @@ struct Grade {
 impl Grade {
     fn of(
         report: &CancelReport,
-        (body, parts): (&ElasticBody, &[ObstaclePart]),
+        body: &ElasticBody,
         start: &CollisionState,
         size: f32,
         settings: &CancelSettings,
     ) -> Self {
         let depth = report.left / (settings.depth_tolerance * size);
-        let gap_of = |gap: f32| gap / (settings.gap_tolerance * size);
-        let mut gap = gap_of(report.gap);
-        if gap > WORTH_CLOSING {
-            // Between the vertices the skin may touch.
-            gap = gap.min(gap_of(widest_held_gap(body, parts, size, report)));
-        }
+        let gap = report.gap / (settings.gap_tolerance * size);
         let open = depth.max(gap);
         Self {
             open: if open <= WORTH_CLOSING { 0.0 } else { open },

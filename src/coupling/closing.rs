@@ -3,9 +3,11 @@
 use super::attempt::GUARD_HEIGHT;
 use super::cancel::{CancelReport, CancelSettings, WORTH_CLOSING};
 use super::contact::Proximity;
+use super::find_contacts::{add_piercings, find_contacts, find_piercings};
+use super::guards::{add_guards, find_guards};
 use super::measure::widest_held_gap;
 use super::obstacle::ObstaclePart;
-use super::penetrations::{Contact, add_guards, add_piercings, find_contacts, find_guards, find_piercings};
+use super::penetrations::Contact;
 use super::strength::{Way, solve_pass};
 use crate::elastic::ElasticBody;
 
@@ -19,7 +21,7 @@ pub(super) fn close_gaps(
     settings: &CancelSettings,
     report: &mut CancelReport,
 ) {
-    let (tolerance, close) = (settings.depth_tolerance * size, WORTH_CLOSING * settings.gap_tolerance * size);
+    let (tolerance, close) = (settings.depth_tolerance * size, worth_closing(size, settings));
     for _ in 0..CLOSING_PASSES {
         let watched: Vec<(Contact, f32)> =
             report.contacts.iter().filter_map(|contact| contact.watched(body, parts)).collect();
@@ -44,11 +46,7 @@ pub(super) fn close_gaps(
         let mut inside = left_over(body, parts, near, tolerance);
         if !inside.is_empty() {
             // What sank in a little between the points that were watched comes out again.
-            let guards = find_guards(body, parts, near, &inside, widest);
-            add_guards(body, parts, guards, &mut inside);
-            let least = vec![0.0; inside.len()];
-            let (pass, _) = solve_pass(body, (parts, near), &inside, &least, way, size, settings);
-            body.deform_collision(pass);
+            push_out(body, (parts, near), inside, widest, way, size, settings);
             taken = 2;
             inside = left_over(body, parts, near, tolerance);
         }
@@ -65,8 +63,43 @@ pub(super) fn close_gaps(
     }
 }
 
+/// One pass that pushes these contacts out, parts within `height` metres guarded: the contacts that pushed, and how strongly.
+pub(super) fn push_out(
+    body: &mut ElasticBody,
+    (parts, near): (&[ObstaclePart], &[Proximity]),
+    mut contacts: Vec<Contact>,
+    height: f32,
+    way: Way,
+    size: f32,
+    settings: &CancelSettings,
+) -> Vec<(Contact, f32)> {
+    let guards = find_guards(body, parts, near, &contacts, height);
+    add_guards(body, parts, guards, &mut contacts);
+    let least = vec![0.0; contacts.len()];
+    let (pass, strengths) = solve_pass(body, (parts, near), &contacts, &least, way, size, settings);
+    body.deform_collision(pass);
+    contacts.into_iter().zip(strengths).filter(|(_, strength)| *strength > 0.0).collect()
+}
+
+/// Gaps from this one on are worth closing, in metres.
+pub(super) fn worth_closing(size: f32, settings: &CancelSettings) -> f32 {
+    WORTH_CLOSING * settings.gap_tolerance * size
+}
+
+/// The widest gap at a contact: as the vertices tell it, and where that would be worth closing, between the vertices too.
+pub(super) fn remaining_gap(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    size: f32,
+    settings: &CancelSettings,
+    report: &CancelReport,
+) -> f32 {
+    let gap = widest_gap(body, parts, &report.contacts);
+    if gap > worth_closing(size, settings) { gap.min(widest_held_gap(body, parts, size, report)) } else { gap }
+}
+
 /// The widest gap between skin and parts at a contact that fields of its own have pushed, in metres.
-pub(super) fn widest_gap(body: &ElasticBody, parts: &[ObstaclePart], contacts: &[Contact]) -> f32 {
+fn widest_gap(body: &ElasticBody, parts: &[ObstaclePart], contacts: &[Contact]) -> f32 {
     let gap = |contact: &Contact| contact.watched(body, parts).map_or(0.0, |(_, gap)| gap);
     contacts.iter().filter(|contact| contact.pushed > 0.0).map(gap).fold(0.0, f32::max)
 }

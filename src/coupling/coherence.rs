@@ -121,12 +121,8 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
         .enumerate()
         .fold((0, 0.0), |best, (v, change)| if change > best.1 { (v, change) } else { best });
     let mut motion = 0.0_f32;
-    let mut see = |old: &Pose, new: &Pose| {
-        let way =
-            |(a, b): (&Vec3, &Vec3)| old.inverse_transform_point(*a).distance_squared(new.inverse_transform_point(*b));
-        let farthest = last.before.par_iter().zip(&now.before).with_min_len(1024).map(way).reduce(|| 0.0, f32::max);
-        motion = motion.max(farthest.sqrt());
-    };
+    let mut see =
+        |old: &Pose, new: &Pose| motion = motion.max(motion_seen_from([old, new], [&last.before, &now.before]));
     for &collider in last.touched.union(&now.touched) {
         let of_collider = PartId { collider, part: 0 }..=PartId { collider, part: u32::MAX };
         let mut common = now.parts.range(of_collider).filter_map(|(id, new)| Some((last.parts.get(id)?, new)));
@@ -139,6 +135,14 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
     }
     let ratio = change / (motion + floor / SMOOTH);
     Some(TimeCoherence { ratio, change: change / size, motion: motion / size, vertex: vertex as u32 })
+}
+
+/// The farthest way in metres that a point goes, from the first list to the second, as seen from what itself moves from the first pose to the
+/// second.
+pub(super) fn motion_seen_from([old, new]: [&Pose; 2], [before, now]: [&[Vec3]; 2]) -> f32 {
+    let way =
+        |(a, b): (&Vec3, &Vec3)| old.inverse_transform_point(*a).distance_squared(new.inverse_transform_point(*b));
+    before.par_iter().zip(now).with_min_len(1024).map(way).reduce(|| 0.0, f32::max).sqrt()
 }
 
 /// The segment with most weight in a vertex.

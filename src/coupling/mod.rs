@@ -2,14 +2,16 @@
 //!
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
-mod again;
 mod attempt;
 mod cancel;
+mod cancel_memory;
 mod closing;
 mod coherence;
 mod common_way;
 mod contact;
+mod find_contacts;
 mod gauge;
+mod guards;
 mod literal;
 mod magnitude;
 mod obstacle;
@@ -21,13 +23,15 @@ pub mod procdef;
 mod skin_point;
 mod strength;
 
-pub use again::CancelMemory;
-pub use cancel::{CancelReport, CancelSettings, Placement, cancel, cancel_again};
+pub use cancel::{CancelReport, CancelSettings, Placement, cancel, cancel_with_memory};
+pub use cancel_memory::CancelMemory;
 pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
 pub use contact::{Proximity, moved_axis, penetration, way_out};
+pub use find_contacts::{find_contacts, find_piercings};
 pub use folds::count_folds;
 pub use gauge::{Bar, gauge_point};
+pub use guards::find_guards;
 pub use magnitude::complementarity;
 pub use obstacle::{
     DEFAULT_THICKNESS, LocalPart, ObstacleError, ObstaclePart, OuterFace, PartCache, PartId, PartSource, convex_parts,
@@ -37,7 +41,7 @@ pub use pairs::{
     HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
     segment_bounds, self_pairs,
 };
-pub use penetrations::{Contact, Penetration, find_contacts, find_guards, find_piercings};
+pub use penetrations::{Contact, Penetration};
 pub use piercing::{deepest_on_triangle, pierced};
 pub use skin_point::SkinPoint;
 mod folds;

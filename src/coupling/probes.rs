@@ -3,8 +3,9 @@
 use rapier3d::parry::bounding_volume::BoundingVolume;
 use rayon::prelude::*;
 
+use super::find_contacts::{PIERCED, STRETCHED};
 use super::obstacle::ObstaclePart;
-use super::penetrations::{ASKEW, Contact, PIERCED, Penetration, STRETCHED};
+use super::penetrations::{ASKEW, Contact, Penetration};
 use super::piercing::{Height, pierced};
 use super::skin_point::{SkinPoint, flow_all};
 use crate::elastic::{CollisionPass, ElasticBody};

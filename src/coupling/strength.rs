@@ -178,7 +178,7 @@ fn place_fields(
 }
 
 /// The region of constant velocity of a contact's field: the part, or, where the contact is with pieces of a surface, all that
-/// lies below the highest of the points on it.
+/// lies below the highest of the places where its points come out.
 ///
 /// A contact with a surface is one with many pieces; a region about one of them would move the skin over the others less, and
 /// would jump when another piece becomes the deepest.

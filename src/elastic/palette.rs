@@ -38,11 +38,12 @@ impl CollisionField {
     /// False where the field surely leaves the point `x` alone: a quick test.
     #[inline]
     pub fn may_reach(&self, x: Vec3) -> bool {
-        match self {
-            // While strengths are solved for, many fields are off.
-            Self::Hugging(field) => field.d != Vec3::ZERO && field.patch_reaches(x),
-            Self::Sphere(field) => field.reaches(x),
-        }
+        // While strengths are solved for, many fields are off.
+        self.displacement() != Vec3::ZERO
+            && match self {
+                Self::Hugging(field) => field.patch_reaches(x),
+                Self::Sphere(field) => field.reaches(x),
+            }
     }
 
     /// The displacement `d` that the field gives its region of constant velocity.

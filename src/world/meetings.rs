@@ -36,7 +36,7 @@ impl DeformationWorld {
             return Vec::new();
         }
         let bodies: Vec<&ElasticBody> = entries.iter().map(|entry| &entry.body).collect();
-        let mut pairs = pairs_of(&bodies, |a, b| {
+        let mut pairs = pairs_of(&bodies, NEARING, |a, b| {
             if a.body == b.body {
                 entries[a.body].self_pairs.contains(&(a.segment, b.segment))
             } else {
@@ -114,7 +114,18 @@ impl DeformationWorld {
             if overlap.depth() > TOLERANCE * size {
                 (touched[pair.a.body], touched[pair.b.body]) = (true, true);
             }
+            let presence = (1.0 + overlap.closeness() / (NEARING * size)).clamp(0.0, 1.0);
+            let name = |at: SegmentRef, other: SegmentRef| {
+                let body = encounters[other.body].handle.into_raw_parts().0;
+                PartId::interface(at.segment as u16, (body, other.segment as u16))
+            };
+            let names = [name(pair.a, pair.b), name(pair.b, pair.a)];
             if !parted.insert((pair.a, pair.b)) {
+                for (at, id) in [pair.a, pair.b].into_iter().zip(names) {
+                    for part in encounters[at.body].parts.iter_mut().filter(|part| part.id == id) {
+                        part.presence = part.presence.max(presence);
+                    }
+                }
                 continue;
             }
             let share = self.share(encounters, &pair);
@@ -125,9 +136,8 @@ impl DeformationWorld {
                 let yields = if first { share } else { 1.0 - share };
                 let Some(body) = self.body_at(encounters, at.body).filter(|_| yields > 0.0) else { continue };
                 let margin = MARGIN * body.skins()[at.segment].size;
-                let id = PartId { collider: (u32::MAX, u32::MAX), part: 2 * parted.len() as u32 + side as u32 };
-                let Ok(mut part) = interface_part(&interface, first, margin, id) else { continue };
-                part.presence = (1.0 + overlap.closeness() / (NEARING * size)).clamp(0.0, 1.0);
+                let Ok(mut part) = interface_part(&interface, first, margin, names[side]) else { continue };
+                part.presence = presence;
                 let encounter = &mut encounters[at.body];
                 let normal = if first { pair.normal } else { -pair.normal };
                 let (part_index, axis_point) = (encounter.parts.len(), pair.axis_points[side]);

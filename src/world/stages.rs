@@ -14,7 +14,7 @@ use super::encounter::Encounter;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, cancel_again,
+    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, cancel_with_memory,
     measure, obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts, remember_skin_contacts,
     skin_contacts,
 };
@@ -146,15 +146,20 @@ impl DeformationWorld {
             jobs.par_iter_mut().for_each(|(entry, encounter)| cancel_one(entry, encounter, &settings));
             pairs = self.find_pairs(encounters);
         }
-        let settings = self.settings.cancel;
-        let all = vec![true; encounters.len()];
-        for (entry, encounter) in self.active_mut(encounters, &all) {
-            let before = std::mem::take(&mut encounter.before);
-            entry.cancelled.remember(before, &entry.body, &encounter.parts, &encounter.cancelled, &settings);
-        }
+        self.remember_cancellations(encounters);
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);
             self.measure_coherence(encounters, &parted);
+        }
+    }
+
+    /// What was done serves in the next step for bodies that lie still.
+    fn remember_cancellations(&mut self, encounters: &mut [Encounter]) {
+        let settings = self.settings.cancel;
+        let entries = self.entries.iter_mut().map(|(_, entry)| entry);
+        for (entry, encounter) in entries.zip(encounters).filter(|(_, encounter)| encounter.is_active()) {
+            let before = std::mem::take(&mut encounter.before);
+            entry.cancelled.remember(before, &entry.body, &encounter.parts, &encounter.cancelled, &settings);
         }
     }
 
@@ -236,18 +241,19 @@ fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSet
         let first = encounter.before.is_empty();
         let report = if first {
             encounter.before = entry.body.positions().to_vec();
-            cancel_again(&entry.cancelled, &mut entry.body, parts, near, size, settings)
+            cancel_with_memory(&entry.cancelled, &mut entry.body, parts, near, size, settings)
         } else {
             let settings = CancelSettings { first_way: encounter.cancelled.way, ..*settings };
             cancel(&mut entry.body, parts, near, size, &settings)
         };
         if first {
             encounter.cancelled.way = report.way;
+        }
+        if encounter.cancelled.contacts.is_empty() {
             remember_leaders(&report.contacts, &encounter.parts, &mut entry.memories);
         }
         encounter.cancelled.passes += report.passes;
         encounter.cancelled.left = report.left;
-        encounter.cancelled.gap = encounter.cancelled.gap.max(report.gap);
         encounter.cancelled.contacts.extend(report.contacts);
     }
     if !entry.body.is_finite() {

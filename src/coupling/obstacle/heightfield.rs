@@ -226,7 +226,7 @@ fn block(top: &[Vec3], thickness: f32, rim: &[Vec3]) -> Option<LocalPart> {
         Some((along, if rim.contains(&way) { f32::INFINITY } else { 0.0 }))
     };
     let edges = SIDES.into_iter().filter_map(edge).collect();
-    let face = OuterFace { normal, offset: normal.dot(middle), area, middle, thickness, two_sided: false, edges };
+    let face = OuterFace { normal, offset: normal.dot(middle), area, two_sided: false, edges };
     LocalPart::piece(&points, &face).ok()
 }
 

@@ -14,10 +14,6 @@ pub struct OuterFace {
     pub offset: f32,
     /// Area in m².
     pub area: f32,
-    /// The middle of the face.
-    pub middle: Vec3,
-    /// How deep the surface is solid, in metres: about the size of the body that meets it.
-    pub thickness: f32,
     /// A sheet with an outer face on each side; solid behind the face otherwise.
     pub two_sided: bool,
     /// For each edge its outward direction in the face (unit) and the largest tangent of the angle by which a way out may
@@ -34,8 +30,6 @@ impl OuterFace {
             normal,
             offset: self.offset + normal.dot(pose.translation),
             area: self.area,
-            middle: pose.transform_point(self.middle),
-            thickness: self.thickness,
             two_sided: self.two_sided,
             edges: self.edges.iter().map(|(way, tangent)| (pose.rotation * *way, *tangent)).collect(),
         }
@@ -82,7 +76,7 @@ mod tests {
     use super::*;
 
     fn face(edges: Vec<(Vec3, f32)>, two_sided: bool) -> OuterFace {
-        OuterFace { normal: Vec3::Y, offset: 0.0, area: 1.0, middle: Vec3::ZERO, thickness: 1.0, two_sided, edges }
+        OuterFace { normal: Vec3::Y, offset: 0.0, area: 1.0, two_sided, edges }
     }
 
     #[test]

@@ -50,6 +50,17 @@ const MANY_TRIANGLES: usize = 32;
 /// A part counts as small where the diagonal of its box is below this many widths of the field.
 const SMALL: f32 = 2.0;
 
+impl PartId {
+    /// No collider has this index: it stands for the interfaces between skins.
+    const INTERFACE: u32 = u32::MAX;
+
+    /// The name of the part that keeps a segment out of the other one's skin, among the parts around its body: `other` is the
+    /// index of the other body and its segment.
+    pub fn interface(segment: u16, other: (u32, u16)) -> Self {
+        Self { collider: (Self::INTERFACE, other.0), part: u32::from(segment) << 16 | u32::from(other.1) }
+    }
+}
+
 impl ObstaclePart {
     /// A convex part of a collider, in the world.
     pub fn new(id: PartId, collider: ColliderHandle, local: &LocalPart, pose: Pose) -> Self {
@@ -112,14 +123,23 @@ impl ObstaclePart {
     }
 
     /// How well a way from `x` along `direction` (unit) leads through the part, from 0, where it only touches it, to 1, where it
-    /// is inside by a quarter of its length somewhere. It changes smoothly with `x`.
+    /// is inside by a quarter of its length somewhere. It changes without jumps with `x`.
+    ///
+    /// The signed distance from a convex part is convex along the way, so its least value is found by bisection on its slope.
     pub fn through(&self, x: Vec3, direction: Vec3, length: f32) -> f32 {
-        let inside = |i: u8| {
-            let along = (f32::from(i) + 0.5) / f32::from(SAMPLES) * length;
-            -self.placed.signed_distance(x + direction * along).0
-        };
-        let deepest = (0..SAMPLES).map(inside).fold(0.0, f32::max);
-        (4.0 * deepest / length.max(f32::MIN_POSITIVE)).min(1.0)
+        let at = |along: f32| self.placed.signed_distance(x + direction * along);
+        let (mut low, mut high) = (0.0, length);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if at(middle).1.dot(direction) > 0.0 { high = middle } else { low = middle }
+        }
+        let deepest = -at(0.5 * (low + high)).0;
+        (4.0 * deepest / length.max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
+    }
+
+    /// True for the part behind an interface between two skins.
+    pub fn is_interface(&self) -> bool {
+        self.id.collider.0 == PartId::INTERFACE
     }
 
     /// True for a piece of a surface with a solid side.
@@ -161,8 +181,8 @@ impl ObstaclePart {
     }
 }
 
-/// A way through a part is looked at in this many places.
-const SAMPLES: u8 = 8;
+/// A way through a part is halved this often: to a 4096th of its length.
+const BISECTIONS: usize = 12;
 
 /// How far along a ray (unit `direction`) a hull begins, 0 where the ray starts inside; none where it is not within
 /// `reach`. Exact, where parry's search along a ray ends somewhere near the surface.

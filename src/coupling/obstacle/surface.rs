@@ -95,10 +95,10 @@ impl SurfaceFaces {
             let half = face.normal * (0.5 * sheet);
             corners.flat_map(|p| [p + half, p - half]).collect()
         };
-        LocalPart::piece(&points, &self.outer_face(face, thickness)).ok()
+        LocalPart::piece(&points, &self.outer_face(face)).ok()
     }
 
-    fn outer_face(&self, face: &Face, thickness: f32) -> OuterFace {
+    fn outer_face(&self, face: &Face) -> OuterFace {
         let corner = |i: usize| self.points[face.corners[i % face.corners.len()] as usize];
         let edge = |(i, &neighbour): (usize, &Option<Vec3>)| {
             let way = (corner(i + 1) - corner(i)).cross(face.normal).try_normalize()?;
@@ -116,8 +116,6 @@ impl SurfaceFaces {
             normal: face.normal,
             offset: face.normal.dot(corner(0)),
             area: 0.5 * face.area,
-            middle: (0..face.corners.len()).map(corner).sum::<Vec3>() / face.corners.len() as f32,
-            thickness,
             two_sided: !self.solid,
             edges: face.neighbours.iter().enumerate().filter_map(edge).collect(),
         }

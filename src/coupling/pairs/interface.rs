@@ -104,8 +104,6 @@ pub fn interface_part(
         normal: out,
         offset: out.dot(centre),
         area: 4.0 * half[0] * half[1],
-        middle: centre,
-        thickness: 2.0 * depth,
         two_sided: false,
         edges: Vec::new(),
     });

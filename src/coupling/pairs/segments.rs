@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rapier3d::parry::bounding_volume::Aabb;
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d::parry::partitioning::{Bvh, BvhBuildStrategy};
 
 use super::overlap::{Overlap, SkinSide};
@@ -45,14 +45,19 @@ pub fn segment_bounds(body: &ElasticBody, segment: usize) -> Aabb {
     Aabb::new(low, high)
 }
 
-/// All pairs of segments whose boxes meet and that `collide`, sorted; of two segments of one body the one with the smaller
-/// index stands first.
-pub fn pairs_of(bodies: &[&ElasticBody], collide: impl Fn(SegmentRef, SegmentRef) -> bool) -> Vec<SegmentPair> {
+/// All pairs of segments that are nearer to each other than `within`, a part of the smaller body's size, as far as their boxes tell,
+/// and that `collide`, sorted; of two segments of one body the one with the smaller index stands first.
+pub fn pairs_of(
+    bodies: &[&ElasticBody],
+    within: f32,
+    collide: impl Fn(SegmentRef, SegmentRef) -> bool,
+) -> Vec<SegmentPair> {
     let mut segments = Vec::new();
     let mut boxes = Vec::new();
     for (index, body) in bodies.iter().enumerate() {
         for segment in 0..body.skins().len() {
-            let bounds = segment_bounds(body, segment);
+            // The boxes of both are wider by half of it.
+            let bounds = segment_bounds(body, segment).loosened(0.5 * within * body.rig().mesh.size());
             if bounds.mins.is_finite() && bounds.maxs.is_finite() {
                 segments.push(SegmentRef { body: index, segment });
                 boxes.push(bounds);
