@@ -24,6 +24,9 @@ const MARGIN: f32 = 0.15;
 /// there where they touch.
 const NEARING: f32 = 0.03;
 
+/// As [`NEARING`], for two segments of one body: their skins are near each other most of the time.
+const OWN_NEARING: f32 = 0.01;
+
 /// Most points at which two segments push each other.
 const MOST_POINTS: usize = 96;
 
@@ -186,6 +189,7 @@ impl DeformationWorld {
                 return None;
             }
             let (a, b) = (self.body_at(encounters, pair.a.body)?, self.body_at(encounters, pair.b.body)?);
+            let within = if pair.a.body == pair.b.body { within.min(OWN_NEARING) } else { within };
             let margin = within * self.smaller_size(encounters, pair);
             let overlap = self.overlap(encounters, pair, a.positions(), b.positions(), margin.max(0.0))?;
             (overlap.closeness() > -margin).then_some((*pair, overlap))
