@@ -125,10 +125,9 @@ impl Contact {
         Some((Self { held: true, pushed: self.pushed, ..guard }, gap))
     }
 
-    /// The skin that is at the place of the contact now: what went in has slid along the part, as far as it was pushed at most,
-    /// and other skin has come.
+    /// The skin that is at the place of the contact now: what went in has slid along the part, and other skin has come.
     pub fn beside(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Vec<Penetration> {
-        let around = self.radius + self.depth().max(self.pushed);
+        let around = self.radius + self.depth();
         let own: BTreeSet<u32> = self.points.iter().map(|p| p.point.vertices[0]).collect();
         let touched = self.parts();
         let here = |&vertex: &u32| {
