@@ -10,7 +10,7 @@ use super::find_contacts::{add_piercings, find_contacts, find_piercings};
 use super::guards::{add_guards, find_guards};
 use super::obstacle::ObstaclePart;
 use super::penetrations::Contact;
-use super::strength::{Way, solve_pass, stride_of};
+use super::strength::{Way, solve_pass};
 use crate::elastic::{CollisionState, ElasticBody};
 
 /// Adds passes to the palette of `body` until nothing is left or nothing is gained any more; each handles what the last left
@@ -27,7 +27,6 @@ pub(super) fn attempt(
     let tolerance = settings.depth_tolerance * size;
     let nothing = (f32::INFINITY, f32::INFINITY);
     let mut best = Best { worst: nothing, left: f32::INFINITY, state: body.collision_state(), passes: 0 };
-    let mut wide = 0;
     loop {
         let mut contacts = find_contacts(body, parts, near, tolerance);
         let small = contacts.iter().all(|contact| contact.depth() < SMALL * size);
@@ -47,7 +46,7 @@ pub(super) fn attempt(
             break;
         }
         let mut pace = way;
-        if wide >= WIDE_PASSES && small {
+        if report.passes >= WIDE_PASSES && small {
             // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
             pace.softness *= 0.5;
             contacts =
@@ -58,7 +57,6 @@ pub(super) fn attempt(
         let mut all = contacts.clone();
         add_guards(body, parts, guards, &mut all);
         let least = vec![0.0; all.len()];
-        wide += u32::from(stride_of(&all, pace.stride * size) >= 1.0);
         let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, pace, size, settings);
         if report.passes == 0 {
             report.contacts = contacts;

@@ -120,7 +120,7 @@ const GAP_COUNTS: f32 = 0.5;
 
 /// The part of the way that is gone in one pass: all of it, unless contacts push against each other. What is squeezed out of
 /// one of them then flows towards the next, and the strengths are right for a short way only.
-pub(super) fn stride_of(contacts: &[Contact], stride: f32) -> f32 {
+fn stride_of(contacts: &[Contact], stride: f32) -> f32 {
     let against = |a: &Contact| contacts.iter().any(|b| a.near.normal.dot(b.near.normal) < AGAINST_EACH_OTHER);
     if contacts.len() < 3 || !contacts.iter().any(against) {
         return 1.0;
