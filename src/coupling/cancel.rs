@@ -6,9 +6,8 @@ use super::cancel_memory::CancelMemory;
 use super::contact::Proximity;
 use super::find_contacts::find_contacts;
 use super::folds::count_folds;
-use super::measure::ROUGHLY;
 use super::obstacle::ObstaclePart;
-use super::penetrations::Contact;
+use super::penetrations::{Contact, SAME_WAY};
 use super::strength::Way;
 use crate::elastic::{CollisionState, ElasticBody};
 
@@ -182,11 +181,12 @@ const TURNED: f32 = 0.0;
 const WAYS: [(f32, f32); 5] = [(1.0, 0.12), (1.6, 0.12), (2.5, 0.12), (1.0, 0.06), (0.6, 0.12)];
 
 impl CancelReport {
-    /// Notes that a contact's own field pushes.
+    /// Notes that the field of a contact pushes: of the contacts before the first pass, those of the same segment, with a part of
+    /// this one's, that lead out nearly the same way.
     pub(super) fn hold(&mut self, pushing: &Contact, strength: f32) {
         let parts = pushing.parts();
         for contact in &mut self.contacts {
-            let along = contact.near.normal.dot(pushing.near.normal) > ROUGHLY;
+            let along = contact.near.normal.dot(pushing.near.normal) > SAME_WAY;
             if along && contact.near.segment == pushing.near.segment && !contact.parts().is_disjoint(&parts) {
                 contact.held = true;
                 contact.pushed += strength;

@@ -140,7 +140,7 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelRe
 }
 
 /// Cosine from which on two contacts with one part push the same way.
-pub(super) const ROUGHLY: f32 = 0.5;
+const ROUGHLY: f32 = 0.5;
 
 /// Distance of a point from a box, 0 inside.
 fn from_box(bounds: &Aabb, x: Vec3) -> f32 {
