@@ -157,14 +157,17 @@ fn a_body_that_moves_on_is_dealt_with_anew() {
     let mut memory = CancelMemory::default();
     let (first, parts, report, before) = between_planks(Vec3::ZERO, &memory);
     memory.remember(before, &first, &parts, &report, &CancelSettings::default());
-    let shift = Vec3::new(0.02, 0.0, 0.0);
-    let (moved, ..) = between_planks(shift, &memory);
-    let (fresh, ..) = between_planks(shift, &CancelMemory::default());
-    assert_eq!(moved.positions(), fresh.positions());
+    // The lesser way is little enough to be made up for by a correction, but no tremor.
+    for shift in [0.001, 0.02] {
+        let shift = Vec3::new(shift, 0.0, 0.0);
+        let (moved, ..) = between_planks(shift, &memory);
+        let (fresh, ..) = between_planks(shift, &CancelMemory::default());
+        assert_eq!(moved.positions(), fresh.positions());
+    }
     // A memory that was wiped does no harm either.
     memory.forget();
-    let (forgotten, ..) = between_planks(shift, &memory);
-    assert_eq!(forgotten.positions(), fresh.positions());
+    let (forgotten, ..) = between_planks(Vec3::ZERO, &memory);
+    assert_eq!(forgotten.positions(), first.positions());
 }
 
 /// The passes of a body that held still were taken again although the obstacle that they were for had gone.

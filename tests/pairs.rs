@@ -111,7 +111,7 @@ fn a_heap_of_twenty_soft_balls_is_not_seen_in_each_other_and_slows_down() {
 
 #[test]
 fn skins_that_nearly_touch_are_known_before_they_do() {
-    use pliant::coupling::{Overlap, SkinSide};
+    use pliant::coupling::{Overlap, SkinSide, pairs_of};
     use pliant::elastic::ElasticBody;
     let at = |x: f32| {
         let mut body = ElasticBody::new(ball_rig(RADIUS, 1.2, SpringCoefficients::new(3.0, 0.3)));
@@ -127,6 +127,9 @@ fn skins_that_nearly_touch_are_known_before_they_do() {
         let near = Overlap::within(sides[0], sides[1], Vec3::X, Vec3::ZERO, 0.03);
         let deep = Overlap::between(sides[0], sides[1], Vec3::X, Vec3::ZERO);
         assert_eq!(deep.is_empty(), gap > 0.0);
+        // The balls lie along an axis of their boxes: these are as far apart as the skins.
+        let found = |within: f32| pairs_of(&[&first, &second], within, |_, _| true).len();
+        assert_eq!((found(0.0), found(0.03 / RADIUS)), (usize::from(gap < 0.0), usize::from(gap < 0.03)));
         if gap > 0.03 {
             assert!(near.is_empty());
         } else {
