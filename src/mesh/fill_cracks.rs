@@ -24,7 +24,7 @@ pub(super) fn fill_cracks(filling: &mut Filling, boundary: &[[u32; 3]], target: 
     let edges = boundary.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).filter(|[u, v]| u < v);
     for [u, v] in edges {
         let (Some(&p), Some(&q)) = (sides.get(&[u, v]), sides.get(&[v, u])) else { continue };
-        let cell = [u, v, q, p];
+        let cell = [u, v, p, q];
         if p == q || cell.iter().any(|c| touched.contains(c)) {
             continue;
         }
