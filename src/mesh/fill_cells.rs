@@ -2,7 +2,7 @@
 
 use super::TetrahedralMesh;
 use super::fill_target::{Place, Target};
-use super::tetrahedral_mesh::{CELL_EDGES, CELL_FACES};
+use super::tetrahedral_mesh::{CELL_EDGES, CELL_FACES, cell_volume, is_flat};
 use crate::math::Vec3;
 
 /// Passes over the vertices around one that needs room.
@@ -65,6 +65,30 @@ impl Filling {
         let name = self.cells.len() as u32;
         self.cells.push(cell);
         cell.iter().for_each(|&v| self.of_vertex[v as usize].push(name));
+    }
+
+    /// Without the cells that have no volume, as lattice cells have where a surface is too fine for them, and without the vertices
+    /// that only they had. What that leaves open is boundary, and counts as such in the report.
+    pub fn drop_flat(&mut self) {
+        let volume = |cell: &[u32; 4]| {
+            let x = cell.map(|v| self.positions[v as usize].as_dvec3());
+            (cell_volume(x), is_flat(x, cell_volume(x)))
+        };
+        let bad = |cell: &[u32; 4]| matches!(volume(cell), (v, flat) if flat || v <= 0.0);
+        let mut kept: Vec<[u32; 4]> = self.cells.iter().filter(|cell| !bad(cell)).copied().collect();
+        if kept.len() == self.cells.len() {
+            return;
+        }
+        let mut used: Vec<u32> = kept.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        for v in kept.iter_mut().flatten() {
+            *v = used.partition_point(|u| u < v) as u32;
+        }
+        let positions = used.iter().map(|&v| self.positions[v as usize]).collect();
+        let places = used.iter().map(|&v| self.places[v as usize]).collect();
+        *self = Self::new(positions, kept);
+        self.places = places;
     }
 
     /// Without these cells; all vertices are still used by others.

@@ -17,7 +17,7 @@ use super::fill_target::{Place, Target, over_triangle};
 use crate::math::Vec3;
 
 /// Rounds at most.
-const ROUNDS: u32 = 24;
+const ROUNDS: u32 = 48;
 /// Points are looked at in distances of so many cells.
 pub(super) const SPACING: f32 = 0.25;
 /// Sharp edges and corners are followed to this part of what is allowed for faces.
@@ -39,9 +39,8 @@ struct Miss {
     /// Where the surface is, and what of it.
     goal: Vec3,
     place: Place,
-    /// The triangle of the boundary, and the shares of its corners.
+    /// The triangle of the boundary.
     triangle: u32,
-    shares: [f32; 3],
 }
 
 /// Refines until no point of surface and boundary is farther from the other than `tolerance`, as far as that can be.
@@ -60,13 +59,6 @@ pub(super) fn refine(filling: &mut Filling, target: &Target, cell_size: f32, tol
         }
         misses.retain(|m| m.distance > if m.place == Place::Loose { tolerance } else { FEATURE_PART * tolerance });
         misses.sort_by(|a, b| b.place.cmp(&a.place).then(b.distance.total_cmp(&a.distance)));
-        println!(
-            "DEBUG round {round} cells {} farthest {farthest} misses {} corner {} edge {}",
-            filling.cells.len(),
-            misses.len(),
-            misses.iter().filter(|m| m.place == Place::Corner).count(),
-            misses.iter().filter(|m| m.place == Place::Edge).count()
-        );
         if round == ROUNDS || !change(filling, &boundary, &misses, target, cell_size) {
             break;
         }
@@ -75,7 +67,7 @@ pub(super) fn refine(filling: &mut Filling, target: &Target, cell_size: f32, tol
         let boundary = filling.boundary();
         peel_slivers(filling, &boundary, target, FEATURE_PART * tolerance);
         let boundary = filling.boundary();
-        smooth(filling, &boundary, target, 2);
+        smooth(filling, &boundary, target, 1);
         mend(filling, target, cell_size);
     }
     if let Some((_, found)) = best {
@@ -102,15 +94,14 @@ fn misses(
 ) -> Vec<Miss> {
     let Ok(own) = TriMesh::new(filling.positions.clone(), boundary.to_vec()) else { return Vec::new() };
     let there = samples.par_iter().map(|&(goal, place)| {
-        let (projection, (triangle, location)) = own.project_local_point_and_get_location(goal, false);
-        let shares = location.barycentric_coordinates().unwrap_or([1.0, 0.0, 0.0]);
-        Miss { distance: goal.distance(projection.point), goal, place, triangle, shares }
+        let (projection, (triangle, _)) = own.project_local_point_and_get_location(goal, false);
+        Miss { distance: goal.distance(projection.point), goal, place, triangle }
     });
     let back = (0..boundary.len() as u32).into_par_iter().flat_map_iter(|triangle| {
         let corners = boundary[triangle as usize].map(|v| filling.positions[v as usize]);
-        over_triangle(corners, spacing).into_iter().map(move |(p, shares)| {
+        over_triangle(corners, spacing).into_iter().map(move |p| {
             let goal = target.project(p);
-            Miss { distance: p.distance(goal), goal, place: Place::Loose, triangle, shares }
+            Miss { distance: p.distance(goal), goal, place: Place::Loose, triangle }
         })
     });
     there.chain(back).collect()

@@ -78,21 +78,21 @@ impl Target {
         }
         for t in self.shape.indices() {
             let corners = t.map(|v| self.shape.vertices()[v as usize]);
-            samples.extend(over_triangle(corners, spacing).into_iter().map(|(p, _)| (p, Place::Loose)));
+            samples.extend(over_triangle(corners, spacing).into_iter().map(|p| (p, Place::Loose)));
         }
         samples
     }
 }
 
-/// Points of a triangle no farther from each other than this, its corners included, and the shares of the corners in each.
-pub(super) fn over_triangle([a, b, c]: [Vec3; 3], spacing: f32) -> Vec<(Vec3, [f32; 3])> {
+/// Points of a triangle no farther from each other than this, its corners included.
+pub(super) fn over_triangle([a, b, c]: [Vec3; 3], spacing: f32) -> Vec<Vec3> {
     let parts = parts(a.distance(b).max(b.distance(c)).max(c.distance(a)), spacing);
     let mut points = Vec::new();
     for i in 0..=parts {
         for j in 0..=parts - i {
             let [u, v] = [i, j].map(|k| k as f32 / parts as f32);
             let w = (parts - i - j) as f32 / parts as f32;
-            points.push((a * u + b * v + c * w, [u, v, w]));
+            points.push(a * u + b * v + c * w);
         }
     }
     points

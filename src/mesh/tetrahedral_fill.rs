@@ -13,6 +13,8 @@ const MOST_CELLS: f64 = 5e6;
 const FOLLOWS: f32 = 0.02;
 /// Refined until it is as near as this part of what is asked for: between the points that are looked at it may be farther.
 const MARGIN: f32 = 0.7;
+/// Sizes of cells that are tried one after the other, beside the one asked for, until the boundary follows the surface.
+const TRIED: [f32; 3] = [1.0, 0.9, 0.8];
 /// Vertices of the boundary go onto sharp features within so many cell sizes.
 const SHARP_REACH: f32 = 0.45;
 
@@ -20,7 +22,7 @@ const SHARP_REACH: f32 = 0.45;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FillReport {
     /// The Hausdorff distance between the surface and the mesh's boundary in metres: the largest distance of a point of one
-    /// from the other, both ways, taken at corners, along sharp edges and all over the triangles, an eighth of a cell apart.
+    /// from the other, both ways, taken at corners, along sharp edges and all over the triangles, a sixteenth of a cell apart.
     pub hausdorff: f32,
     /// The same beside the size of the surface ([`TriangleMesh::size`]).
     pub relative: f32,
@@ -30,11 +32,18 @@ pub struct FillReport {
     pub volume_ratio: f64,
 }
 
+impl FillReport {
+    /// Whether surface and boundary are within 2 % of the size of each other.
+    pub fn follows(&self) -> bool {
+        self.relative <= FOLLOWS
+    }
+}
+
 /// Fills a closed surface, facing outward, with tetrahedra of about this size in metres; the boundary of the cells follows the
-/// surface, catches its sharp edges where the cells allow it, and no cell is inside out.
+/// surface with its sharp edges and corners, and no cell is inside out.
 ///
-/// What is thinner than a cell is lost, and sharp edges and corners that the cells do not allow to be caught are cut off by up to
-/// a cell: the report tells so by its Hausdorff distance. Choose smaller cells then.
+/// Where cells of this size are farther than 2 % of the surface's size from it, they are split there, and if that is not enough, cells smaller by a tenth and by a fifth are tried. What is thinner than a cell is
+/// lost all the same: then [`FillReport::follows`] is false, and the report has the distance. Choose smaller cells.
 ///
 /// # Errors
 /// The surface is open or not facing outward, the size of the cells is not positive or makes more than five million of them,
@@ -55,6 +64,27 @@ pub fn fill_surface(surface: &TriangleMesh, cell_size: f32) -> Result<(Tetrahedr
         return Err(TetrahedralError::CellSize { cell_size, cells });
     }
     let target = Target::of(surface)?;
+    let mut best = fill(surface, &target, TRIED[0] * cell_size);
+    for part in &TRIED[1..] {
+        let known = best.as_ref().map_or(f32::INFINITY, |(_, report)| report.hausdorff);
+        if best.as_ref().is_ok_and(|(_, report)| report.follows()) {
+            break;
+        }
+        let another = fill(surface, &target, part * cell_size);
+        if another.as_ref().is_ok_and(|(_, report)| report.hausdorff < known) {
+            best = another;
+        }
+    }
+    best
+}
+
+/// One filling with cells of one size.
+fn fill(
+    surface: &TriangleMesh,
+    target: &Target,
+    cell_size: f32,
+) -> Result<(TetrahedralMesh, FillReport), TetrahedralError> {
+    let bounds = measure::bounding_box(&surface.positions);
     let (positions, cells) = stuff(|p| target.signed_distance(p), [bounds.mins, bounds.maxs], cell_size);
     if cells.is_empty() {
         return Err(TetrahedralError::CellSize { cell_size, cells: 0.0 });
@@ -63,12 +93,13 @@ pub fn fill_surface(surface: &TriangleMesh, cell_size: f32) -> Result<(Tetrahedr
     let boundary = filling.boundary();
     // First the cells get better, then features are caught, then the rest follows.
     for passes in [2, 4, 4, 2] {
-        smooth(&mut filling, &boundary, &target, passes);
-        catch_features(&mut filling, &boundary, &target, SHARP_REACH * cell_size);
+        smooth(&mut filling, &boundary, target, passes);
+        catch_features(&mut filling, &boundary, target, SHARP_REACH * cell_size);
     }
     let size = surface.size();
-    refine(&mut filling, &target, cell_size, MARGIN * FOLLOWS * size);
-    let hausdorff = hausdorff(&filling, &filling.boundary(), &target, SPACING * cell_size * 0.5);
+    refine(&mut filling, target, cell_size, MARGIN * FOLLOWS * size);
+    filling.drop_flat();
+    let hausdorff = hausdorff(&filling, &filling.boundary(), target, SPACING * cell_size * 0.25);
     let mesh = TetrahedralMesh::new(filling.positions, filling.cells)?;
     let report = FillReport {
         hausdorff,
