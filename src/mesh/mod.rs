@@ -3,8 +3,12 @@
 
 mod atomic_file;
 mod error;
+mod fill_cells;
+mod fill_cracks;
 mod fill_lattice;
+mod fill_refinement;
 mod fill_smoothing;
+mod fill_target;
 pub mod measure;
 mod normals;
 mod obj_read;

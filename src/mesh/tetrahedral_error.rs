@@ -134,6 +134,19 @@ pub enum TetrahedralError {
         /// About how many cells that makes.
         cells: f64,
     },
+    /// The cells do not follow the surface that they fill.
+    #[error(
+        "cells of {cell_size} m are up to {distance} m away from the surface, {percent} % of its size, where 2 % are allowed; \
+         choose smaller cells"
+    )]
+    NotFollowed {
+        /// The size of the cells, in metres.
+        cell_size: f32,
+        /// The Hausdorff distance that was reached, in metres.
+        distance: f32,
+        /// The same in hundredths of the surface's size.
+        percent: f32,
+    },
 }
 
 /// What is wrong with one line of a tetrahedral file.

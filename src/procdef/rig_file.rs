@@ -4,7 +4,9 @@ use super::rig_build::{BuiltMotion, fault};
 use super::rig_description::RigDescription;
 use super::rig_fault::{MotionRigFault, MotionRigFaultKind as Kind, MotionRigPlace as Place};
 use crate::files::{TomlError, TomlText};
-use crate::mesh::{AtomicFile, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedral};
+use crate::mesh::{
+    AtomicFile, TetrahedralError, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedral,
+};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -87,7 +89,13 @@ fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh
         (true, Some(cell)) => {
             super::rig_checks::cell_size(cell)?;
             let surface = load_obj(path).map_err(|e| fault(Place::root("mesh"), e))?;
-            fill_surface(&surface, cell).map(|(mesh, _)| mesh).map_err(|e| fault(Place::root("mesh"), e))
+            let (mesh, report) = fill_surface(&surface, cell).map_err(|e| fault(Place::root("mesh"), e))?;
+            if report.follows() {
+                return Ok(mesh);
+            }
+            let (distance, percent) = (report.hausdorff, 100.0 * report.relative);
+            let error = TetrahedralError::NotFollowed { cell_size: cell, distance, percent };
+            Err(fault(Place::root("cell_size"), error))
         }
     }
 }
