@@ -96,3 +96,24 @@ fn keeping_the_volume_keeps_the_linear_momentum() {
     let (sum, size) = (masses().sum::<glam::DVec3>().length(), masses().map(|p| p.length()).sum::<f64>());
     assert!(size > 0.0 && sum < 1e-5 * size, "{sum} of {size}");
 }
+
+#[test]
+fn cells_that_are_held_open_are_not_turned_by_a_thrust_and_keep_the_momentum() {
+    let rig = Arc::new(ProcDefRigBuilder::new(ball()).build().unwrap());
+    let turned = |least_volume: f32| {
+        let mut body = ProcDefBody::new(rig.clone(), &Pose::IDENTITY);
+        body.settings.least_volume = least_volume;
+        // The top vertex goes a cell deep in one step. Twice as deep, eight sweeps leave two cells turned.
+        let top = (0..rig.masses().len()).max_by(|a, b| body.positions()[*a].y.total_cmp(&body.positions()[*b].y));
+        body.velocities_mut()[top.unwrap()] = Vec3::NEG_Y * 7.0;
+        let momentum =
+            |body: &ProcDefBody| -> Vec3 { body.velocities().iter().zip(rig.masses()).map(|(v, m)| *v * *m).sum() };
+        let before = momentum(&body);
+        body.hold_open(&[], 1.0 / 60.0);
+        assert!(momentum(&body).distance(before) < 1e-5 * before.length());
+        let ahead: Vec<Vec3> = body.positions().iter().zip(body.velocities()).map(|(x, v)| *x + *v / 60.0).collect();
+        rig.mesh().volumes_at(&ahead).iter().filter(|v| **v <= 0.0).count()
+    };
+    assert!(turned(0.0) > 0);
+    assert_eq!(turned(0.1), 0);
+}

@@ -99,6 +99,22 @@ fn every_scene_of_soft_bodies_runs_finite_and_without_a_frozen_body() {
 }
 
 #[test]
+fn no_cell_is_inside_out_in_any_frame_of_scenes_of_single_bodies() {
+    // Not the snail, whose tail the ground presses flat, and not the bowel, which starts in the middle of its wave.
+    for name in ["jellyfish", "worm-crawl", "worm-bend", "heart", "bending-bar", "propagation", "stiffness"] {
+        let mut simulation = open(name);
+        let end = simulation.scene.duration - 0.5 * simulation.scene.dt;
+        while simulation.time() < end {
+            simulation.step();
+            for actor in &simulation.soft_actors {
+                let inverted = simulation.soft_figures(actor).inverted;
+                assert_eq!(inverted, 0, "{name}, {} at {} s", actor.name, simulation.time());
+            }
+        }
+    }
+}
+
+#[test]
 fn the_jellyfish_of_the_scene_swims_its_length_in_three_strokes() {
     let mut simulation = open("jellyfish");
     let cycle = simulation.soft_actors[0].kind.model.motion.cyclic().unwrap().charts.cycle;
@@ -216,7 +232,7 @@ fn the_snail_answers_its_touches_from_there_on_and_comes_to_rest_again() {
     run_to_the_end(&mut simulation);
     assert!(height(&simulation) > 0.6 * start, "it stands: {} of {start}", height(&simulation));
     let inverted = simulation.soft_figures(&simulation.soft_actors[0]).inverted;
-    assert!(inverted < 60, "{inverted} cells are inside out");
+    assert!(inverted <= 1, "{inverted} cells are inside out");
 }
 
 #[test]

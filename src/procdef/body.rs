@@ -7,6 +7,7 @@ use wide::f32x4;
 
 use super::global_solve::Factor;
 use super::matching::Matching;
+use super::open_cells::Ahead;
 use super::rigid::{damp, keep_momentum, vec3, wide};
 use super::settings::wave_distance;
 use super::{GroundPlane, ProcDefRig, ProcDefSettings, Stiffness};
@@ -31,6 +32,8 @@ pub struct ProcDefBody {
     /// Positions and target volumes while volumes are kept.
     projected: Vec<f32x4>,
     volumes: Vec<f32>,
+    /// How far its vertices are pushed so that cells stay open.
+    pushes: Vec<f32x4>,
 }
 
 impl ProcDefBody {
@@ -49,6 +52,7 @@ impl ProcDefBody {
             factor: None,
             projected: Vec::new(),
             volumes: Vec::new(),
+            pushes: Vec::new(),
             rig,
         }
     }
@@ -171,6 +175,7 @@ impl ProcDefBody {
         if kept < 1.0 {
             damp(self.rig.masses(), &self.positions, &mut self.velocities, kept);
         }
+        self.hold_open(local, h);
         if let Some(plane) = plane {
             self.stop_at(plane, h);
         }
@@ -213,6 +218,38 @@ impl ProcDefBody {
         rig.cells.project(&mut self.projected, &self.volumes, plane);
         for ((y, x), &v) in self.projected.iter().zip(&self.shape).zip(&regions.vertex) {
             self.velocities[v as usize] += vec3(*y - *x) / h;
+        }
+    }
+
+    /// Changes the velocities so that after `h` seconds of them no cell has less than a part of its volume; see
+    /// [`ProcDefSettings::least_volume`]. Linear momentum is kept.
+    ///
+    /// [`ProcDefBody::step`] calls it; a world with contacts calls it after all else that changes the velocities.
+    pub fn hold_open(&mut self, local: &[Mat3], h: f32) {
+        let least = self.settings.least_volume.min(1.0);
+        if !(least > 0.0 && h > 0.0 && h.is_finite()) {
+            return;
+        }
+        let rig = Arc::clone(&self.rig);
+        let regions = &rig.regions;
+        let origin = self.positions.get(regions.vertex[0] as usize).copied().unwrap_or(Vec3::ZERO);
+        self.projected.clear();
+        for (x, &v) in self.shape.iter_mut().zip(&regions.vertex) {
+            *x = wide(self.positions[v as usize] - origin);
+            self.projected.push(*x + wide(self.velocities[v as usize] * h));
+        }
+        self.pushes.clear();
+        self.pushes.resize(self.shape.len(), f32x4::ZERO);
+        let mut way = Ahead {
+            now: &self.shape,
+            ahead: &mut self.projected,
+            pushes: &mut self.pushes,
+            inverse_mass: &rig.cells.inverse_mass,
+        };
+        if rig.cells.hold_open(regions, local, least, &mut way) {
+            for (&push, &v) in self.pushes.iter().zip(&regions.vertex) {
+                self.velocities[v as usize] += vec3(push) / h;
+            }
         }
     }
 }

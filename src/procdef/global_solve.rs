@@ -47,16 +47,12 @@ pub(super) struct Factor {
 impl Stiffening {
     pub fn new(mesh: &TetrahedralMesh, regions: &Regions) -> Self {
         let n = regions.len();
-        let mut place = vec![0u32; n];
-        for (p, &v) in (0u32..).zip(&regions.vertex) {
-            place[v as usize] = p;
-        }
         let total_mass: f64 = regions.mass.iter().map(|&m| f64::from(m)).sum();
         let density = total_mass / mesh.volume();
         let mut gradients = vec![DVec3::ZERO; regions.items.len()];
         let mut elements = vec![0.0f64; regions.items.len()];
         for (cell, volume) in mesh.cells.iter().zip(mesh.volumes()) {
-            let places = cell.map(|v| place[v as usize] as usize);
+            let places = cell.map(|v| regions.place[v as usize] as usize);
             let x = cell.map(|v| mesh.positions[v as usize].as_dvec3());
             let mass = volume * density;
             let shape = shape_gradients(x);

@@ -16,6 +16,7 @@ mod line_field;
 mod matching;
 mod model;
 mod motion;
+mod open_cells;
 mod ordering;
 mod orientation;
 mod paint;

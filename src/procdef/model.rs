@@ -108,6 +108,7 @@ impl ProcDefModel {
             },
             damping: description.damping.unwrap_or(plain.damping),
             keep_volume: description.keep_volume.unwrap_or(plain.keep_volume),
+            least_volume: description.least_volume.unwrap_or(plain.least_volume),
         };
         if let Some(contact) = description.contact {
             model.friction = contact.friction;

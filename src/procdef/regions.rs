@@ -17,6 +17,8 @@ use crate::mesh::TetrahedralMesh;
 pub(super) struct Regions {
     /// For each place in the order, the vertex of the mesh.
     pub vertex: Vec<u32>,
+    /// The place of each vertex of the mesh.
+    pub place: Vec<u32>,
     /// Where each region's row starts; one more than there are regions.
     pub starts: Vec<u32>,
     /// The places of the vertices of each region, ascending.
@@ -59,11 +61,12 @@ impl Regions {
             rest: rest.iter().map(|x| x.as_vec3()).collect(),
             mass,
             vertex,
+            place,
         };
         let mut centres: Vec<Vec3> = Vec::new();
         for p in 0..rest.len() {
             let v = regions.vertex[p];
-            let mut members: Vec<u32> = neighbours.of(v as usize).iter().map(|&n| place[n as usize]).collect();
+            let mut members: Vec<u32> = neighbours.of(v as usize).iter().map(|&n| regions.place[n as usize]).collect();
             members.push(p as u32);
             members.sort_unstable();
             let sum: f64 = members.iter().map(|&i| shared[i as usize]).sum();

@@ -50,6 +50,7 @@ fn body(rig: &RigDescription) -> Check {
     }
     within(Place::root("iterations"), rig.iterations.map(|n| n as f32), 1.0, 64.0, "from 1 to 64")?;
     share(Place::root("stiffness"), rig.stiffness)?;
+    share(Place::root("least_volume"), rig.least_volume)?;
     if rig.iterations.is_some() && rig.stiffness.is_some() {
         return Err(fault(Place::root("stiffness"), Kind::StiffnessForm));
     }

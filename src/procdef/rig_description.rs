@@ -34,6 +34,9 @@ pub struct RigDescription {
     /// Whether the volume of the cells is kept; false without.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub keep_volume: Option<bool>,
+    /// The part of its volume below which no cell comes by the body's own motion, 0 to 1; 0 without: cells are not looked at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_volume: Option<f32>,
     /// Colour of the body, linear RGB from 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub colour: Option<[f32; 3]>,

@@ -23,11 +23,15 @@ pub struct ProcDefSettings {
     pub damping: f32,
     /// Whether the cells are kept at their volume, times the determinant of their local deformation. Off unless it is set.
     pub keep_volume: bool,
+    /// The part of its volume, times the determinant of its local deformation, below which no cell is let by the body itself, from
+    /// 0 to 1: cells stay right side out. 0 unless it is set, and then cells are not looked at. What presses the body from
+    /// outside comes after it.
+    pub least_volume: f32,
 }
 
 impl Default for ProcDefSettings {
     fn default() -> Self {
-        Self { stiffness: Stiffness::Iterations(2), damping: 5.0, keep_volume: false }
+        Self { stiffness: Stiffness::Iterations(2), damping: 5.0, keep_volume: false, least_volume: 0.0 }
     }
 }
 

@@ -26,10 +26,10 @@ const NEAR: f32 = 0.01;
 /// The cells of a body at rest, in the order of its regions.
 #[derive(Clone, Debug)]
 pub(super) struct Cells {
-    corners: Vec<[u32; 4]>,
+    pub(super) corners: Vec<[u32; 4]>,
     /// Six times the volume of each.
-    rest: Vec<f32>,
-    inverse_mass: Vec<f32>,
+    pub(super) rest: Vec<f32>,
+    pub(super) inverse_mass: Vec<f32>,
 }
 
 impl Cells {
@@ -38,17 +38,13 @@ impl Cells {
     /// # Errors
     /// A cell whose volume is nothing in 32 bits.
     pub fn new(mesh: &TetrahedralMesh, regions: &Regions) -> Result<Self, ProcDefRigError> {
-        let mut place = vec![0u32; regions.len()];
-        for (p, &v) in (0u32..).zip(&regions.vertex) {
-            place[v as usize] = p;
-        }
         let mut cells = Vec::with_capacity(mesh.cells.len());
         for (c, (cell, volume)) in mesh.cells.iter().zip(mesh.volumes()).enumerate() {
             let volume = (volume * 6.0) as f32;
             if !volume.is_normal() {
                 return Err(ProcDefRigError::CellVolume { cell: c, volume: volume / 6.0 });
             }
-            cells.push((cell.map(|v| place[v as usize]), volume));
+            cells.push((cell.map(|v| regions.place[v as usize]), volume));
         }
         cells.sort_by_key(|(cell, _)| *cell.iter().min().unwrap_or(&0));
         let (corners, rest) = cells.into_iter().unzip();
@@ -58,16 +54,20 @@ impl Cells {
     /// Six times the volumes that the cells should have: each times the mean of the determinants at its corners.
     pub fn targets(&self, regions: &Regions, local: &[Mat3], targets: &mut Vec<f32>) {
         targets.clear();
+        let shrinking = (0..self.corners.len()).map(|c| self.shrinking(c, regions, local));
+        targets.extend(shrinking.zip(&self.rest).map(|(shrinking, rest)| rest * shrinking));
+    }
+
+    /// By what a cell's volume is multiplied: the mean of the determinants at its corners. 1 without deformations.
+    pub fn shrinking(&self, c: usize, regions: &Regions, local: &[Mat3]) -> f32 {
         if local.len() != regions.len() {
-            targets.extend(&self.rest);
-            return;
+            return 1.0;
         }
-        let factor = |&p: &u32| {
+        let determinant = |&p: &u32| {
             let d = local[regions.vertex[p as usize] as usize].determinant().abs();
             if d.is_finite() { d } else { 1.0 }
         };
-        let mean = |cell: &[u32; 4]| cell.iter().map(factor).sum::<f32>() * 0.25;
-        targets.extend(self.corners.iter().zip(&self.rest).map(|(cell, rest)| rest * mean(cell)));
+        self.corners[c].iter().map(determinant).sum::<f32>() * 0.25
     }
 
     /// Projects the positions `y` of all places.
@@ -113,13 +113,13 @@ impl Cells {
 }
 
 #[inline]
-fn dot(a: f32x4, b: f32x4) -> f32 {
+pub(super) fn dot(a: f32x4, b: f32x4) -> f32 {
     let [x, y, z, _] = (a * b).to_array();
     x + y + z
 }
 
 #[inline]
-fn cross(a: f32x4, b: f32x4) -> f32x4 {
+pub(super) fn cross(a: f32x4, b: f32x4) -> f32x4 {
     let ([ax, ay, az, _], [bx, by, bz, _]) = (a.to_array(), b.to_array());
     f32x4::new([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx, 0.0])
 }

@@ -164,6 +164,7 @@ impl ProcDefEntry {
         if let Some(grip) = &self.grip {
             grip.pull(&mut self.body, dt);
         }
+        self.body.hold_open(&self.local, dt);
     }
 }
 

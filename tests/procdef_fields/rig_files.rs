@@ -36,6 +36,7 @@ fn everything() -> RigDescription {
         stiffness: Some(0.3),
         damping: Some(2.5),
         keep_volume: Some(true),
+        least_volume: Some(0.05),
         colour: Some([0.1, 0.2, 0.7]),
         charts: Some(ChartsDescription {
             cycle: 1.7,
@@ -118,6 +119,7 @@ fn every_fault_is_told_with_its_line_and_key() {
         (format!("{head}iterations = 0\n"), "rig.toml:3: `iterations` must be from 1 to 64 and is 0"),
         (format!("{head}iterations = 2\nstiffness = 0.5\n"), "rig.toml:4: `stiffness` and `iterations` are two ways"),
         (format!("{head}damping = -1.0\n"), "rig.toml:3: `damping` must be"),
+        (format!("{head}least_volume = 1.5\n"), "rig.toml:3: `least_volume` must be from 0 to 1 and is 1.5"),
         (format!("{head}colour = [0.0, 2.0, 0.0]\n"), "rig.toml:3: `colour` must be from 0 to 1 and is 2"),
         (format!("{head}\n[[layer]]\nvalue = 0.5\n"), "rig.toml:4: layer 0: needs one of `face`"),
         (format!("{head}[[layer]]\nvalue = 0.5\nface = 3\nstroke = [[0.0, 0.0, 0.0]]\n"), "and has 2"),

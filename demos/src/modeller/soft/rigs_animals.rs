@@ -15,6 +15,10 @@ use super::{jellyfish as jelly, shell, snail as body, worm as worms};
 pub fn jellyfish(name: &str) -> RigDescription {
     let mut rig = rig_of(name, true);
     rig.stiffness = Some(0.5);
+    if name == "jellyfish" {
+        // At each stroke the flat cells where the tentacles begin would bend through themselves.
+        rig.least_volume = Some(0.05);
+    }
     rig.colour = Some([0.55, 0.45, 0.75]);
     rig.charts = Some(ChartsDescription {
         cycle: 1.6,
