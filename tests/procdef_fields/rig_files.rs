@@ -234,3 +234,18 @@ fn a_closed_surface_is_filled_with_cells() {
     let message = load_motion_rig(folder.path().join("rig.toml")).unwrap_err().to_string();
     assert!(message.contains("rig.toml:1: `mesh` is a surface; set `cell_size`"), "{message}");
 }
+
+#[test]
+fn cells_that_do_not_follow_their_surface_are_refused_with_the_distance() {
+    let folder = folder("mesh = \"needle.obj\"\ncell_size = 0.5\ndensity = 1000.0\n");
+    // A box of 1 m with a needle on it, much thinner than the cells.
+    let needle = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n\
+                v 0.5 1 0.47\nv 0.53 1 0.5\nv 0.5 1 0.53\nv 0.47 1 0.5\nv 0.5 2.5 0.5\n\
+                f 1 2 3 4\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n\
+                f 5 9 6\nf 6 9 10\nf 6 10 7\nf 7 10 11\nf 7 11 8\nf 8 11 12\nf 8 12 5\nf 5 12 9\n\
+                f 9 13 10\nf 10 13 11\nf 11 13 12\nf 12 13 9\n";
+    fs::write(folder.path().join("needle.obj"), needle).unwrap();
+    let message = load_motion_rig(folder.path().join("rig.toml")).unwrap_err().to_string();
+    let expected = ["rig.toml:2: `cell_size` cannot be used: cells of 0.5 m are up to 0.14", "where 2 % are allowed"];
+    assert!(expected.iter().all(|part| message.contains(part)), "{message}");
+}
