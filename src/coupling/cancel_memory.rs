@@ -100,13 +100,13 @@ impl CancelMemory {
             report.passes += 1;
         }
         let way = Way { softness: softness_of(body, settings), stride: 1.0 };
+        let inside = left_over(body, parts, near, tolerance);
+        let height = inside.iter().map(Contact::depth).fold(0.0, f32::max);
+        if height > SMALL * size {
+            return None;
+        }
         // What creeps would need another small pass every few steps, and too many are solved for anew with a jump.
-        if !left_over(body, parts, near, SLACK * tolerance).is_empty() {
-            let inside = left_over(body, parts, near, tolerance);
-            let height = inside.iter().map(Contact::depth).fold(0.0, f32::max);
-            if height > SMALL * size {
-                return None;
-            }
+        if height > SLACK * tolerance {
             for (contact, strength) in push_out(body, (parts, near), inside, height, way, size, settings) {
                 report.hold(&contact, strength);
             }
@@ -170,8 +170,8 @@ const TREMOR: f32 = 5.0e-4;
 /// More than this many passes are solved for anew.
 const MOST_PASSES: u32 = 8;
 
-/// What is inside by more than this many tolerances is corrected, then as far as one tolerance: still less than what may be seen
-/// ([`super::INSIDE`]).
+/// What is inside by more than this many tolerances is corrected, then as far as one tolerance. With the usual tolerance that is
+/// still less than what may be seen ([`super::INSIDE`]).
 const SLACK: f32 = 1.6;
 
 /// What is left over is corrected up to this part of the size.

@@ -1,8 +1,7 @@
 //! Cells while a surface is being filled: who is at which vertex, how good a cell is, and how one is split.
 
-use super::TetrahedralMesh;
 use super::fill_target::{Place, Target};
-use super::tetrahedral_mesh::{CELL_EDGES, CELL_FACES, cell_volume, is_flat};
+use super::tetrahedral_mesh::{CELL_EDGES, CELL_FACES, Faces, cell_volume, is_flat};
 use crate::math::Vec3;
 
 /// Passes over the vertices around one that needs room.
@@ -101,7 +100,7 @@ impl Filling {
 
     /// The triangles of the boundary.
     pub fn boundary(&self) -> Vec<[u32; 3]> {
-        TetrahedralMesh { positions: self.positions.clone(), cells: self.cells.clone() }.boundary()
+        Faces::of(&self.cells).boundary
     }
 
     /// The worst quality of the cells at a vertex.

@@ -17,8 +17,8 @@ fn sides(boundary: &[[u32; 3]]) -> HashMap<[u32; 2], u32> {
     boundary.iter().flat_map(|&[a, b, c]| [([a, b], c), ([b, c], a), ([c, a], b)]).collect()
 }
 
-/// Fills cracks whose bottom is farther from the surface than `tolerance`. True if there was one.
-pub(super) fn fill_cracks(filling: &mut Filling, boundary: &[[u32; 3]], target: &Target, tolerance: f32) -> bool {
+/// Fills cracks whose bottom is farther from the surface than `tolerance`.
+pub(super) fn fill_cracks(filling: &mut Filling, boundary: &[[u32; 3]], target: &Target, tolerance: f32) {
     let sides = sides(boundary);
     let mut touched: HashSet<u32> = HashSet::new();
     let edges = boundary.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).filter(|[u, v]| u < v);
@@ -41,11 +41,9 @@ pub(super) fn fill_cracks(filling: &mut Filling, boundary: &[[u32; 3]], target: 
         filling.add(cell);
         touched.extend(cell);
     }
-    if touched.is_empty() {
-        return false;
+    if !touched.is_empty() {
+        filling.find_outside();
     }
-    filling.find_outside();
-    true
 }
 
 /// Takes flat cells between two triangles of the boundary away where that brings the boundary no farther than `tolerance` from the surface.

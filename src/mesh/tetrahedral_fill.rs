@@ -42,8 +42,9 @@ impl FillReport {
 /// Fills a closed surface, facing outward, with tetrahedra of about this size in metres; the boundary of the cells follows the
 /// surface with its sharp edges and corners, and no cell is inside out.
 ///
-/// Where cells of this size are farther than 2 % of the surface's size from it, they are split there, and if that is not enough, cells smaller by a tenth and by a fifth are tried. What is thinner than a cell is
-/// lost all the same: then [`FillReport::follows`] is false, and the report has the distance. Choose smaller cells.
+/// Where cells of this size are farther than 2 % of the surface's size from it, they are split there, and if that is not enough,
+/// cells smaller by a tenth and by a fifth are tried. What is thinner than a cell is lost all the same: then
+/// [`FillReport::follows`] is false, and the report has the distance. Choose smaller cells.
 ///
 /// # Errors
 /// The surface is open or not facing outward, the size of the cells is not positive or makes more than five million of them,

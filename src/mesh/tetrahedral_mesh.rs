@@ -67,7 +67,7 @@ impl TetrahedralMesh {
     pub fn new(positions: Vec<Vec3>, cells: Vec<[u32; 4]>) -> Result<Self, TetrahedralError> {
         check(&positions, &cells)?;
         let mesh = Self { positions, cells };
-        if let Some((face, cell)) = mesh.faces().crowded {
+        if let Some((face, cell)) = Faces::of(&mesh.cells).crowded {
             return Err(TetrahedralError::CrowdedFace { cell, face });
         }
         Ok(mesh)
@@ -80,7 +80,7 @@ impl TetrahedralMesh {
 
     /// The triangles that belong to one cell only, counter-clockwise seen from outside, in the order of their cells.
     pub fn boundary(&self) -> Vec<[u32; 3]> {
-        self.faces().boundary
+        Faces::of(&self.cells).boundary
     }
 
     /// The vertices of the boundary, in ascending order.
@@ -153,10 +153,21 @@ impl TetrahedralMesh {
         }
         worst
     }
+}
 
-    fn faces(&self) -> Faces {
-        let mut faces: Vec<([u32; 3], u32)> = Vec::with_capacity(4 * self.cells.len());
-        for (number, cell) in (0u32..).zip(&self.cells) {
+/// The faces of cells that are not between two of them.
+pub(super) struct Faces {
+    /// Of one cell only, counter-clockwise seen from outside, in the order of their cells.
+    pub boundary: Vec<[u32; 3]>,
+    /// A face of more than two cells, and the last of these.
+    crowded: Option<([u32; 3], usize)>,
+}
+
+impl Faces {
+    /// Counts how many cells have each face.
+    pub fn of(cells: &[[u32; 4]]) -> Self {
+        let mut faces: Vec<([u32; 3], u32)> = Vec::with_capacity(4 * cells.len());
+        for (number, cell) in (0u32..).zip(cells) {
             for (side, corners) in (0u32..).zip(CELL_FACES) {
                 let mut face = corners.map(|k| cell[k]);
                 face.sort_unstable();
@@ -176,14 +187,9 @@ impl TetrahedralMesh {
             }
         }
         open.sort_unstable();
-        let triangle = |at: &u32| CELL_FACES[(at % 4) as usize].map(|k| self.cells[(at / 4) as usize][k]);
-        Faces { boundary: open.iter().map(triangle).collect(), crowded }
+        let triangle = |at: &u32| CELL_FACES[(at % 4) as usize].map(|k| cells[(at / 4) as usize][k]);
+        Self { boundary: open.iter().map(triangle).collect(), crowded }
     }
-}
-
-struct Faces {
-    boundary: Vec<[u32; 3]>,
-    crowded: Option<([u32; 3], usize)>,
 }
 
 /// The corners of a cell, none if an index is out of range.

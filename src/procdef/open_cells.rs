@@ -13,7 +13,7 @@ use glam::Mat3;
 use wide::f32x4;
 
 use super::regions::Regions;
-use super::volume::{Cells, cross, dot};
+use super::volume::{Cells, cross, dot, volume_gradients};
 
 /// Sweeps over the cells at most.
 const MOST_SWEEPS: u32 = 8;
@@ -63,14 +63,11 @@ impl Ahead<'_> {
     /// Pushes the corners of one cell until it has the volume `wanted`, none farther than `farthest`. False if it is nearly there.
     fn push(&mut self, corners: &[u32; 4], wanted: f32, farthest: f32, near: f32) -> bool {
         let at = corners.map(|v| v as usize);
-        let [p, q, r, s] = at.map(|v| self.ahead[v]);
-        let (u, v, w) = (q - p, r - p, s - p);
-        let (a, b, c) = (cross(v, w), cross(w, u), cross(u, v));
-        let missing = wanted - dot(u, a);
+        let (volume, gradients) = volume_gradients(at.map(|v| self.ahead[v]));
+        let missing = wanted - volume;
         if missing.is_nan() || missing <= near {
             return false;
         }
-        let gradients = [-(a + b + c), a, b, c];
         let weights = at.map(|v| self.inverse_mass[v]);
         let total: f32 = gradients.iter().zip(weights).map(|(g, w)| w * dot(*g, *g)).sum();
         let step = missing / total;

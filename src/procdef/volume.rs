@@ -91,11 +91,8 @@ impl Cells {
     #[inline]
     fn project_cell(&self, c: usize, y: &mut [f32x4], target: f32, plane: Option<(f32x4, f32)>) -> f32 {
         let at = self.corners[c].map(|v| v as usize);
-        let [p, q, r, s] = at.map(|v| y[v]);
-        let (u, v, w) = (q - p, r - p, s - p);
-        let (a, b, c) = (cross(v, w), cross(w, u), cross(u, v));
-        let gradients = [-(a + b + c), a, b, c];
-        let error = dot(u, a) - target;
+        let (volume, gradients) = volume_gradients(at.map(|v| y[v]));
+        let error = volume - target;
         let inverse_masses = at.map(|v| self.inverse_mass[v]);
         let total: f32 = gradients.iter().zip(inverse_masses).map(|(g, w)| w * dot(*g, *g)).sum();
         // Corners in one line have no gradient to go along; not-a-number goes nowhere, too.
@@ -110,6 +107,14 @@ impl Cells {
         }
         (error / target).abs()
     }
+}
+
+/// Six times the volume of a cell, and its gradients by the four corners.
+#[inline]
+pub(super) fn volume_gradients([p, q, r, s]: [f32x4; 4]) -> (f32, [f32x4; 4]) {
+    let (u, v, w) = (q - p, r - p, s - p);
+    let (a, b, c) = (cross(v, w), cross(w, u), cross(u, v));
+    (dot(u, a), [-(a + b + c), a, b, c])
 }
 
 #[inline]
