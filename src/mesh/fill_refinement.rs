@@ -14,6 +14,7 @@ use super::fill_cells::{Change, Filling};
 use super::fill_cracks::{fill_cracks, peel_slivers};
 use super::fill_smoothing::smooth;
 use super::fill_target::{Place, Target, over_triangle};
+use super::fill_undo::Before;
 use crate::math::Vec3;
 
 /// Rounds at most.
@@ -136,13 +137,13 @@ fn change(filling: &mut Filling, boundary: &[[u32; 3]], misses: &[Miss], target:
         });
         let done = easy.or_else(|| {
             rated.iter().take(TRIALS).find_map(|(_, change)| {
-                let before = filling.clone();
+                let before = Before::of(*change, filling);
                 let vertex = filling.apply(*change, miss.goal, miss.place);
                 let (quality, touched) = filling.make_room(vertex, target, cell_size);
                 if quality > LEAST_QUALITY {
                     return Some((*change, touched));
                 }
-                *filling = before;
+                before.restore(filling);
                 None
             })
         });

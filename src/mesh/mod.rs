@@ -9,6 +9,7 @@ mod fill_lattice;
 mod fill_refinement;
 mod fill_smoothing;
 mod fill_target;
+mod fill_undo;
 pub mod measure;
 mod normals;
 mod obj_read;
