@@ -25,6 +25,9 @@ pub(super) const SPACING: f32 = 0.25;
 const FEATURE_PART: f32 = 0.3;
 /// Splits of one round are at least so many cells apart.
 const APART: f32 = 0.4;
+/// A point is not tried within so many cells of one where no change was possible: a rod that is lost between the cells has
+/// thousands of such points in each round.
+const REFUSED: f32 = 0.05;
 /// No change leaves a cell worse than this: dihedral angles of about 3 degrees.
 const LEAST_QUALITY: f32 = 0.05;
 /// Where a change leaves worse cells than this, the vertices around are moved to make room for it.
@@ -114,6 +117,8 @@ fn change(filling: &mut Filling, boundary: &[[u32; 3]], misses: &[Miss], target:
     // What a triangle of the boundary must not have to be still as it was.
     let (mut moved, mut split): (HashSet<u32>, HashSet<[u32; 2]>) = Default::default();
     let mut goals: Vec<Vec3> = Vec::new();
+    // Where no change was good enough; a point that is next to one is not tried in this round.
+    let mut refused: Vec<Vec3> = Vec::new();
     for miss in misses {
         let t = boundary[miss.triangle as usize];
         let edges = [[t[1], t[2]], [t[2], t[0]], [t[0], t[1]]].map(|[a, b]| [a.min(b), a.max(b)]);
@@ -121,7 +126,8 @@ fn change(filling: &mut Filling, boundary: &[[u32; 3]], misses: &[Miss], target:
             continue;
         }
         let reach = if miss.place == Place::Loose { apart } else { 0.5 * apart };
-        if goals.iter().any(|g| g.distance(miss.goal) < reach) {
+        let near = |points: &[Vec3], reach: f32| points.iter().any(|p| p.distance(miss.goal) < reach);
+        if near(&goals, reach) || near(&refused, REFUSED * cell_size) {
             continue;
         }
         let held = |v: u32| filling.places[v as usize];
@@ -147,7 +153,10 @@ fn change(filling: &mut Filling, boundary: &[[u32; 3]], misses: &[Miss], target:
                 None
             })
         });
-        let Some((change, touched)) = done else { continue };
+        let Some((change, touched)) = done else {
+            refused.push(miss.goal);
+            continue;
+        };
         goals.push(miss.goal);
         moved.extend(touched);
         match change {
