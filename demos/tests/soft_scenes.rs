@@ -100,15 +100,17 @@ fn every_scene_of_soft_bodies_runs_finite_and_without_a_frozen_body() {
 
 #[test]
 fn no_cell_is_inside_out_in_any_frame_of_scenes_of_single_bodies() {
-    // Not the snail, whose tail the ground presses flat, and not the bowel, which starts in the middle of its wave.
-    for name in ["jellyfish", "worm-crawl", "worm-bend", "heart", "bending-bar", "propagation", "stiffness"] {
+    // One flat cell of the snail's tail is pressed inside out by the ground in 7 of 360 frames, 36 cells with half as many
+    // substeps. Not the bowel, which starts in the middle of its wave.
+    let none = ["jellyfish", "worm-crawl", "worm-bend", "heart", "bending-bar", "propagation", "stiffness"];
+    for (name, most) in none.map(|name| (name, 0)).into_iter().chain([("snail", 1)]) {
         let mut simulation = open(name);
         let end = simulation.scene.duration - 0.5 * simulation.scene.dt;
         while simulation.time() < end {
             simulation.step();
             for actor in &simulation.soft_actors {
                 let inverted = simulation.soft_figures(actor).inverted;
-                assert_eq!(inverted, 0, "{name}, {} at {} s", actor.name, simulation.time());
+                assert!(inverted <= most, "{name}, {}: {inverted} at {} s", actor.name, simulation.time());
             }
         }
     }

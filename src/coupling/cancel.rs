@@ -97,7 +97,8 @@ pub fn cancel(
     for way in std::iter::once(first).chain(others) {
         let (softer, stride) = WAYS[way];
         let mut report = attempt(body, parts, near, Way { softness: softness * softer, stride }, size, settings);
-        if report.passes == 0 && report.left <= 0.0 {
+        // Without passes all ways are the same.
+        if report.passes == 0 && (report.left <= 0.0 || settings.max_passes == 0) {
             return report;
         }
         report.way = way;
