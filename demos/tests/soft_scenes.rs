@@ -1,5 +1,8 @@
 //! The scenes of bodies that move by themselves: each runs, and does what it is there to show.
 
+#[path = "../../tests/common/ventricle.rs"]
+mod ventricle;
+
 use pliant::math::Vec3;
 use pliant_demos::scene::{find_scene, load_scene, scene_names};
 use pliant_demos::simulation::Simulation;
@@ -126,7 +129,26 @@ fn the_jellyfish_of_the_scene_swims_its_length_in_three_strokes() {
     let start = centre(&simulation, 0);
     run(&mut simulation, 3.0 * cycle);
     let way = centre(&simulation, 0) - start;
+    println!("{way} of {length}");
     assert!(way.y > length, "{way} of {length}");
+}
+
+#[test]
+fn the_jellyfish_of_the_scene_stops_when_its_charts_stop() {
+    let mut simulation = open("jellyfish");
+    let cycle = simulation.soft_actors[0].kind.model.motion.cyclic().unwrap().charts.cycle;
+    run(&mut simulation, 2.0 * cycle);
+    let before = centre(&simulation, 0);
+    run(&mut simulation, cycle);
+    let stroke = centre(&simulation, 0).distance(before);
+    let handle = simulation.soft_actors[0].handle;
+    simulation.creatures.motion_mut(handle).unwrap().strength = 0.0;
+    // Water slows it by the square of its pace: what is left after some seconds is a small part of it.
+    run(&mut simulation, 6.0);
+    let before = centre(&simulation, 0);
+    run(&mut simulation, cycle);
+    let rest = centre(&simulation, 0).distance(before);
+    assert!(rest < 0.15 * stroke, "{rest} in a cycle, {stroke} in a stroke");
 }
 
 #[test]
@@ -150,6 +172,25 @@ fn the_worm_crawls_ahead_until_its_cue_and_then_back() {
     run_to_the_end(&mut simulation);
     let back = centre(&simulation, 0).x - start - ahead;
     assert!(back < -1.26, "{back}");
+}
+
+#[test]
+fn the_worm_of_the_scene_crawls_its_length_in_ten_cycles_and_backwards_with_the_phase_reversed() {
+    let way = |pace: f32| {
+        let mut simulation = open("worm-crawl");
+        simulation.scene.cues.clear();
+        let handle = simulation.soft_actors[0].handle;
+        simulation.creatures.motion_mut(handle).unwrap().pace = pace;
+        let xs = || rest(&simulation, 0).iter().map(|x| x.x);
+        let length = xs().fold(f32::MIN, f32::max) - xs().fold(f32::MAX, f32::min);
+        let cycle = simulation.soft_actors[0].kind.model.motion.cyclic().unwrap().charts.cycle;
+        let start = centre(&simulation, 0).x;
+        run(&mut simulation, 10.0 * cycle);
+        (centre(&simulation, 0).x - start) / length
+    };
+    let (ahead, back) = (way(1.0), way(-1.0));
+    println!("{ahead} lengths ahead, {back} back");
+    assert!(ahead > 1.0 && back < -1.0, "{ahead} {back}");
 }
 
 #[test]
@@ -283,6 +324,24 @@ fn the_heart_twists_and_shortens_at_each_beat() {
     assert!(twist > 5.0, "{twist} degrees");
     assert!(shortest < 1.2, "{shortest}");
     assert!(centre(&simulation, 0).distance(start - Vec3::Y * 0.6) < 0.3, "it beats in its place");
+}
+
+#[test]
+fn the_heart_of_the_scene_empties_its_left_ventricle_by_a_third_and_turns_its_apex() {
+    let mut simulation = open("heart");
+    let heart = ventricle::Heart::of(&simulation.soft_actors[0].kind.model.boundary, rest(&simulation, 0));
+    let (mut least, mut most, mut twist) = (f32::MAX, f32::MIN, 0f32);
+    run(&mut simulation, 1.0);
+    for _ in 0..120 {
+        simulation.step();
+        let now = positions(&simulation, 0);
+        let volume = heart.volume(now);
+        (least, most) = (least.min(volume), most.max(volume));
+        twist = twist.max(heart.twist(now).abs());
+    }
+    println!("volumes {least} to {most} of that at rest, twist {twist} degrees");
+    assert!(least < 0.7 * most, "{least} {most}");
+    assert!(twist > 5.0, "{twist}");
 }
 
 #[test]

@@ -20,6 +20,7 @@ mod tetrahedral_error;
 mod tetrahedral_file;
 mod tetrahedral_fill;
 mod tetrahedral_formats;
+mod tetrahedral_gmsh;
 mod tetrahedral_mesh;
 mod tetrahedral_scan;
 mod topology;

@@ -163,6 +163,42 @@ pub enum TetrahedralFault {
         /// The word.
         word: String,
     },
+    /// A word that should be a count.
+    #[error("`{word}` is not a number of {what}")]
+    NotACount {
+        /// What is counted.
+        what: &'static str,
+        /// The word.
+        word: String,
+    },
+    /// A row that does not end with its line.
+    #[error("the row of {what} {number} has another length than the first line announces")]
+    RowLength {
+        /// `"vertex"` or `"cell"`.
+        what: &'static str,
+        /// Its number in the file.
+        number: i64,
+    },
+    /// More of something than was announced.
+    #[error("`{word}` stands where {end} was expected: there are more {what} than the file announces")]
+    Surplus {
+        /// What there is more of.
+        what: &'static str,
+        /// What should come.
+        end: &'static str,
+        /// The word.
+        word: String,
+    },
+    /// Fewer or more of something than was announced.
+    #[error("there are {given} {what}, the file announces {announced}")]
+    WrongCount {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        given: usize,
+        /// How many there should be.
+        announced: usize,
+    },
     /// NaN, infinite, or too large for 32 bits.
     #[error("vertex {vertex} has a coordinate that is not finite: `{word}`")]
     NotFinite {
@@ -180,8 +216,20 @@ pub enum TetrahedralFault {
         count: i64,
     },
     /// A cell names a vertex that the file does not define.
-    #[error("cell {cell} uses vertex {vertex}, which the file does not define")]
+    #[error("cell {cell} uses vertex {vertex}, which the file does not define: its vertices are {first} to {last}")]
     UnknownVertex {
+        /// The cell as the file names it.
+        cell: i64,
+        /// The vertex as the file names it.
+        vertex: i64,
+        /// The first number that a vertex of the file has.
+        first: i64,
+        /// The last one.
+        last: i64,
+    },
+    /// A cell names a vertex twice.
+    #[error("cell {cell} uses vertex {vertex} twice")]
+    CornerTwice {
         /// The cell as the file names it.
         cell: i64,
         /// The vertex as the file names it.

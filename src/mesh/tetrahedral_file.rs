@@ -3,9 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::tetrahedral_formats::{
-    parse_gmsh, parse_medit, parse_tetgen, write_elements, write_gmsh_2, write_gmsh_4, write_medit, write_nodes,
-};
+use super::tetrahedral_formats::{parse_medit, parse_tetgen, write_elements, write_medit, write_nodes};
+use super::tetrahedral_gmsh::{parse_gmsh, write_gmsh_2, write_gmsh_4};
 use super::tetrahedral_scan::read_text;
 use super::{AtomicFile, TetrahedralError, TetrahedralMesh};
 
@@ -30,8 +29,8 @@ pub enum TetrahedralFormat {
 ///
 /// # Errors
 /// A missing or unreadable file, an ending that names no format, and with file and line: words that are no numbers,
-/// coordinates that are not finite, cells that are flat, that share a face with two others or name unknown vertices, a file that ends
-/// too early, versions that are not known.
+/// coordinates that are not finite, cells that are flat, that share a face with two others, name a vertex twice or one that there is
+/// not, more or less of something than is announced, versions that are not known.
 pub fn load_tetrahedral(path: impl AsRef<Path>) -> Result<TetrahedralMesh, TetrahedralError> {
     let path = path.as_ref();
     let at = |path: &Path, (line, fault)| TetrahedralError::Line { path: path.into(), line, fault };

@@ -1,5 +1,4 @@
-//! The formats, each a parser of a text and a writer: Medit's `.mesh`, TetGen's `.node` and `.ele`, Gmsh's `.msh` in the versions
-//! 2.2 and 4.1; all in ASCII.
+//! Formats, each a parser of a text and a writer: Medit's `.mesh`, TetGen's `.node` and `.ele`; in ASCII.
 
 use std::io::{self, Write};
 
@@ -11,6 +10,8 @@ use super::{TetrahedralFault, TetrahedralMesh};
 pub(super) fn parse_medit(text: &str) -> At<TetrahedralMesh> {
     let mut words = Words::new(text);
     let mut reading = Reading::default();
+    // What the section before was about.
+    let mut before = "words";
     while let Some(word) = words.next() {
         // How many words each line of the section has.
         let width = match word {
@@ -34,6 +35,7 @@ pub(super) fn parse_medit(text: &str) -> At<TetrahedralMesh> {
                     words.skip(1, "a reference")?;
                     reading.vertex(words.line, number, position)?;
                 }
+                before = "vertices";
                 continue;
             }
             "Tetrahedra" => {
@@ -42,6 +44,7 @@ pub(super) fn parse_medit(text: &str) -> At<TetrahedralMesh> {
                     words.skip(1, "a reference")?;
                     reading.cell(words.line, number, vertices);
                 }
+                before = "tetrahedra";
                 continue;
             }
             "Corners" | "RequiredVertices" | "Ridges" | "RequiredEdges" | "RequiredTriangles" => 1,
@@ -52,6 +55,10 @@ pub(super) fn parse_medit(text: &str) -> At<TetrahedralMesh> {
             "Pyramids" => 6,
             "Prisms" => 7,
             "Hexahedra" => 9,
+            _ if word.parse::<f64>().is_ok() => {
+                let (end, word) = ("the next section", shown(word));
+                return words.fault(TetrahedralFault::Surplus { what: before, end, word });
+            }
             _ => {
                 let text = format!("`{}` is no section of a Medit file that is known here", shown(word));
                 return words.fault(TetrahedralFault::Unsupported(text));
@@ -59,6 +66,7 @@ pub(super) fn parse_medit(text: &str) -> At<TetrahedralMesh> {
         };
         let count = words.count("elements")?;
         words.skip(count * width, "an element")?;
+        before = "elements";
     }
     let last = words.line;
     reading.finish(last)
@@ -86,11 +94,13 @@ fn tetgen_nodes(text: &str, reading: &mut Reading) -> At<()> {
     let rest = words.count("attributes")? + words.count("markers")?;
     for _ in 0..count {
         let number = words.integer("a vertex")?;
+        let line = words.line;
         let position = words.position(number)?;
         words.skip(rest, "an attribute")?;
-        reading.vertex(words.line, number, position)?;
+        words.same_row(line, "vertex", number)?;
+        reading.vertex(line, number, position)?;
     }
-    Ok(())
+    words.end_of("vertices", "")
 }
 
 fn tetgen_elements(words: &mut Words, reading: &mut Reading) -> At<()> {
@@ -103,128 +113,17 @@ fn tetgen_elements(words: &mut Words, reading: &mut Reading) -> At<()> {
     let rest = words.count("attributes")? + nodes - 4;
     for _ in 0..count {
         let number = words.integer("a tetrahedron")?;
+        let line = words.line;
         let vertices = four(words)?;
         words.skip(rest, "an attribute")?;
-        reading.cell(words.line, number, vertices);
+        words.same_row(line, "cell", number)?;
+        reading.cell(line, number, vertices);
     }
-    Ok(())
+    words.end_of("tetrahedra", "")
 }
 
-/// Gmsh 2.2 or 4.1: the sections `$MeshFormat`, `$Nodes` and `$Elements`; others are passed over, as are elements that are not
-/// tetrahedra of four nodes.
-pub(super) fn parse_gmsh(text: &str) -> At<TetrahedralMesh> {
-    let mut words = Words::new(text);
-    let mut reading = Reading::default();
-    let mut version = "";
-    while let Some(section) = words.next() {
-        match section {
-            "$MeshFormat" => {
-                version = words.word("a version")?;
-                if !matches!(version, "2.2" | "4.1") {
-                    let text = format!("version {} of Gmsh's format is not known; 2.2 and 4.1 are", shown(version));
-                    return words.fault(TetrahedralFault::Unsupported(text));
-                }
-                if words.integer("a file type")? != 0 {
-                    return words.fault(TetrahedralFault::Unsupported("the file is binary; save it as ASCII".into()));
-                }
-                words.skip(1, "a data size")?;
-            }
-            "$Nodes" if version == "2.2" => {
-                for _ in 0..words.count("vertices")? {
-                    let number = words.integer("a vertex")?;
-                    let position = words.position(number)?;
-                    reading.vertex(words.line, number, position)?;
-                }
-            }
-            "$Elements" if version == "2.2" => gmsh_2_elements(&mut words, &mut reading)?,
-            "$Nodes" if version == "4.1" => gmsh_4_nodes(&mut words, &mut reading)?,
-            "$Elements" if version == "4.1" => gmsh_4_elements(&mut words, &mut reading)?,
-            "$Nodes" | "$Elements" => {
-                return words.fault(TetrahedralFault::Unsupported("`$MeshFormat` must come first".into()));
-            }
-            _ if section.starts_with('$') => {}
-            // Sections that are not read.
-            _ => continue,
-        }
-        // To the end of the section.
-        let end = format!("$End{}", section.trim_start_matches('$'));
-        while words.word("the end of a section")? != end {}
-    }
-    let last = words.line;
-    if version.is_empty() {
-        return Err((last, TetrahedralFault::Without("`$MeshFormat`; is this a Gmsh file?")));
-    }
-    reading.finish(last)
-}
-
-/// The number of nodes of each of Gmsh's types of elements from 1.
-const GMSH_NODES: [usize; 19] = [2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13];
-const GMSH_TETRAHEDRON: i64 = 4;
-
-fn gmsh_nodes(words: &Words, kind: i64) -> At<usize> {
-    let known = usize::try_from(kind - 1).ok().and_then(|k| GMSH_NODES.get(k));
-    match known {
-        Some(&nodes) => Ok(nodes),
-        None => words.fault(TetrahedralFault::Unsupported(format!("elements of type {kind} are not known"))),
-    }
-}
-
-fn gmsh_2_elements(words: &mut Words, reading: &mut Reading) -> At<()> {
-    for _ in 0..words.count("elements")? {
-        let number = words.integer("an element")?;
-        let kind = words.integer("a type")?;
-        let tags = words.count("tags")?;
-        words.skip(tags, "a tag")?;
-        if kind == GMSH_TETRAHEDRON {
-            let vertices = four(words)?;
-            reading.cell(words.line, number, vertices);
-        } else {
-            let nodes = gmsh_nodes(words, kind)?;
-            words.skip(nodes, "a node")?;
-        }
-    }
-    Ok(())
-}
-
-fn gmsh_4_nodes(words: &mut Words, reading: &mut Reading) -> At<()> {
-    let blocks = words.count("blocks")?;
-    words.skip(3, "a count")?;
-    for _ in 0..blocks {
-        let dimension = words.count("a dimension")?;
-        words.skip(1, "an entity")?;
-        let parametric = words.integer("0 or 1")? != 0;
-        let count = words.count("vertices")?;
-        let numbers = (0..count).map(|_| words.integer("a vertex")).collect::<At<Vec<i64>>>()?;
-        for number in numbers {
-            let position = words.position(number)?;
-            words.skip(if parametric { dimension } else { 0 }, "a parameter")?;
-            reading.vertex(words.line, number, position)?;
-        }
-    }
-    Ok(())
-}
-
-fn gmsh_4_elements(words: &mut Words, reading: &mut Reading) -> At<()> {
-    let blocks = words.count("blocks")?;
-    words.skip(3, "a count")?;
-    for _ in 0..blocks {
-        words.skip(2, "an entity")?;
-        let kind = words.integer("a type")?;
-        let nodes = gmsh_nodes(words, kind)?;
-        for _ in 0..words.count("elements")? {
-            let number = words.integer("an element")?;
-            if kind == GMSH_TETRAHEDRON {
-                let vertices = four(words)?;
-                reading.cell(words.line, number, vertices);
-            } else {
-                words.skip(nodes, "a node")?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn four(words: &mut Words) -> At<[i64; 4]> {
+/// The four vertices of a cell.
+pub(super) fn four(words: &mut Words) -> At<[i64; 4]> {
     let mut vertices = [0; 4];
     for vertex in &mut vertices {
         *vertex = words.integer("a vertex")?;
@@ -253,28 +152,4 @@ pub(super) fn write_nodes(file: &mut impl Write, mesh: &TetrahedralMesh) -> io::
 pub(super) fn write_elements(file: &mut impl Write, mesh: &TetrahedralMesh) -> io::Result<()> {
     writeln!(file, "{} 4 0", mesh.cells.len())?;
     (0..).zip(&mesh.cells).try_for_each(|(i, [a, b, c, d]): (u32, _)| writeln!(file, "{i} {a} {b} {c} {d}"))
-}
-
-pub(super) fn write_gmsh_2(file: &mut impl Write, mesh: &TetrahedralMesh) -> io::Result<()> {
-    writeln!(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}", mesh.positions.len())?;
-    (1..).zip(&mesh.positions).try_for_each(|(i, p): (u32, _)| writeln!(file, "{i} {} {} {}", p.x, p.y, p.z))?;
-    writeln!(file, "$EndNodes\n$Elements\n{}", mesh.cells.len())?;
-    for (i, cell) in (1u32..).zip(&mesh.cells) {
-        let [a, b, c, d] = cell.map(|v| v + 1);
-        writeln!(file, "{i} 4 2 0 1 {a} {b} {c} {d}")?;
-    }
-    writeln!(file, "$EndElements")
-}
-
-pub(super) fn write_gmsh_4(file: &mut impl Write, mesh: &TetrahedralMesh) -> io::Result<()> {
-    let (n, m) = (mesh.positions.len(), mesh.cells.len());
-    writeln!(file, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 {n} 1 {n}\n3 1 0 {n}")?;
-    (1..=n).try_for_each(|i| writeln!(file, "{i}"))?;
-    mesh.positions.iter().try_for_each(|p| writeln!(file, "{} {} {}", p.x, p.y, p.z))?;
-    writeln!(file, "$EndNodes\n$Elements\n1 {m} 1 {m}\n3 1 4 {m}")?;
-    for (i, cell) in (1u32..).zip(&mesh.cells) {
-        let [a, b, c, d] = cell.map(|v| v + 1);
-        writeln!(file, "{i} {a} {b} {c} {d}")?;
-    }
-    writeln!(file, "$EndElements")
 }

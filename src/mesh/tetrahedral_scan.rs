@@ -79,9 +79,11 @@ impl<'a> Words<'a> {
         word.parse().or_else(|_| self.fault(TetrahedralFault::NotANumber { what, word: shown(word) }))
     }
 
-    /// The next word as a count of things that take at least `least` bytes each.
+    /// The next word as a count of things that are in the file.
     pub fn count(&mut self, what: &'static str) -> At<usize> {
-        let count = self.integer(what)?;
+        let word = self.word(what)?;
+        let count =
+            word.parse().or_else(|_| self.fault(TetrahedralFault::NotACount { what, word: shown(word) }))?;
         match usize::try_from(count) {
             // Each thing is a character and a space at least.
             Ok(n) if n <= self.text.len() / 2 => Ok(n),
@@ -101,6 +103,22 @@ impl<'a> Words<'a> {
             }
         }
         Ok(Vec3::from(out))
+    }
+
+    /// What stands behind all `what` that were announced: `end`, or the end of the file where that is empty.
+    pub fn end_of(&mut self, what: &'static str, end: &'static str) -> At<()> {
+        let name = if end.is_empty() { "the end of the file" } else { end };
+        match self.next() {
+            None if end.is_empty() => Ok(()),
+            None => self.fault(TetrahedralFault::Ended(end)),
+            Some(word) if word == end => Ok(()),
+            Some(word) => self.fault(TetrahedralFault::Surplus { what, end: name, word: shown(word) }),
+        }
+    }
+
+    /// Checks that the last word is still on the line `from`, where the row of `what` with this number began.
+    pub fn same_row(&self, from: usize, what: &'static str, number: i64) -> At<()> {
+        if self.line == from { Ok(()) } else { Err((from, TetrahedralFault::RowLength { what, number })) }
     }
 
     /// Passes over `count` words.
@@ -160,10 +178,12 @@ impl Reading {
         let mut used = vec![false; self.positions.len()];
         for read in &self.cells {
             let mut cell = [0u32; 4];
-            for (to, vertex) in cell.iter_mut().zip(read.vertices) {
-                let unknown = TetrahedralFault::UnknownVertex { cell: read.number, vertex };
-                *to = *self.numbers.get(&vertex).ok_or((read.line, unknown))?;
+            for (k, (to, vertex)) in cell.iter_mut().zip(read.vertices).enumerate() {
+                *to = *self.numbers.get(&vertex).ok_or_else(|| (read.line, self.unknown(read.number, vertex)))?;
                 used[*to as usize] = true;
+                if read.vertices[..k].contains(&vertex) {
+                    return Err((read.line, TetrahedralFault::CornerTwice { cell: read.number, vertex }));
+                }
             }
             let flat = TetrahedralFault::FlatCell { cell: read.number, vertices: read.vertices };
             let x = corners(&self.positions, &cell).ok_or((read.line, flat.clone()))?;
@@ -188,6 +208,13 @@ impl Reading {
         cells.iter_mut().flatten().for_each(|v| *v = names[*v as usize]);
         // All that this checks has been checked, with its line.
         TetrahedralMesh::new(positions, cells).map_err(|e| (last, TetrahedralFault::Unsupported(e.to_string())))
+    }
+
+    /// A cell names a vertex that there is not.
+    fn unknown(&self, cell: i64, vertex: i64) -> TetrahedralFault {
+        let first = self.numbers.keys().copied().min().unwrap_or_default();
+        let last = self.numbers.keys().copied().max().unwrap_or_default();
+        TetrahedralFault::UnknownVertex { cell, vertex, first, last }
     }
 
     /// Refuses a third cell at a face.

@@ -30,6 +30,7 @@ mod rig_error;
 mod rig_fault;
 mod rig_file;
 mod rigid;
+mod rise;
 mod rotation;
 mod rotation_wide;
 mod scalar_field;

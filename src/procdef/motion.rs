@@ -7,6 +7,7 @@ use super::charts::{ChartsError, DeformationCharts, VolumeMode};
 use super::excitation::excitation;
 use super::geodesic::GeodesicMesh;
 use super::orientation::OrientationField;
+use super::rise::risen;
 use super::stimulus::{MAX_STIMULI, Stimulus, StimulusError, StimulusSettings};
 use super::stretch::{LANES, StretchAxes};
 use crate::math::{Mat3, Vec3};
@@ -31,6 +32,9 @@ pub struct CyclicMotion {
     /// Propagation speed `v`: the signal goes from phase shift 0 to 1 in `1/v` seconds. Negative values run backwards;
     /// infinity, the same time everywhere.
     pub speed: f32,
+    /// Seconds in which the cycle of a new body grows from nothing to its full strength, smoothly; 0: it is all there at once, and
+    /// a body whose phases differ jumps into the middle of its wave.
+    pub rise: f32,
 }
 
 /// Why no motion can be made of what was given.
@@ -57,6 +61,9 @@ pub enum MotionError {
     /// A speed of 0 or none.
     #[error("the propagation speed is {0}; it must not be 0")]
     Speed(f32),
+    /// A rise that is no time.
+    #[error("the cycle rises in {0} s; it must be from 0 to 1e6 s")]
+    Rise(f32),
     /// The charts are wrong.
     #[error(transparent)]
     Charts(#[from] ChartsError),
@@ -143,12 +150,15 @@ impl MotionRig {
     /// Exchanges the cycle, as when charts are edited.
     ///
     /// # Errors
-    /// Charts or a speed out of range; the old ones stay.
+    /// Charts, a speed or a rise out of range; the old ones stay.
     pub fn set_cyclic(&mut self, cyclic: Option<CyclicMotion>) -> Result<(), MotionError> {
         if let Some(c) = &cyclic {
             c.charts.check()?;
             if c.speed.is_nan() || c.speed.abs() < 1.0e-6 {
                 return Err(MotionError::Speed(c.speed));
+            }
+            if !(0.0..=1.0e6).contains(&c.rise) {
+                return Err(MotionError::Rise(c.rise));
             }
         }
         self.offsets.clear();
@@ -180,12 +190,17 @@ pub struct Motion {
     pub pace: f32,
     /// Exponent on all rates of the cycle, in [0, 1]: at 0 the body is at rest but for stimuli.
     pub strength: f32,
+    /// Seconds in which the cycle grows from nothing to that strength after the motion was made; 0 for at once. See
+    /// [`CyclicMotion::rise`].
+    pub rise: f32,
+    /// Seconds since it was made, whatever the pace.
+    age: f64,
     stimuli: Vec<Stimulus>,
 }
 
 impl Default for Motion {
     fn default() -> Self {
-        Self { clock: 0.0, pace: 1.0, strength: 1.0, stimuli: Vec::new() }
+        Self { clock: 0.0, pace: 1.0, strength: 1.0, rise: 0.0, age: 0.0, stimuli: Vec::new() }
     }
 }
 
@@ -193,6 +208,11 @@ impl Motion {
     /// A motion whose clock stands at `clock` seconds: bodies of a crowd start at different times.
     pub fn at(clock: f64) -> Self {
         Self { clock, ..Self::default() }
+    }
+
+    /// The same for a new body, whose cycle rises as its rig says.
+    pub fn rising(clock: f64, rig: &MotionRig) -> Self {
+        Self { rise: rig.cyclic().map_or(0.0, |cyclic| cyclic.rise), ..Self::at(clock) }
     }
 
     /// Signals under way, the oldest first.
@@ -205,6 +225,7 @@ impl Motion {
         let dt = if dt.is_finite() { f64::from(dt) } else { 0.0 };
         let pace = if self.pace.is_finite() { f64::from(self.pace) } else { 0.0 };
         self.clock += dt * pace;
+        self.age += dt;
         self.stimuli.iter_mut().for_each(|s| s.elapsed += dt);
         match &rig.response {
             Some((_, table)) => self.stimuli.retain(|s| !s.is_over(table)),
@@ -277,11 +298,12 @@ impl<'a> Now<'a> {
             let cycles = motion.clock / f64::from(c.charts.cycle);
             (cycles - cycles.floor()) as f32
         });
+        let strength = if motion.strength.is_finite() { motion.strength.clamp(0.0, 1.0) } else { 0.0 };
         let bounds = [rig.cyclic.as_ref().map(|c| c.1.bound()), rig.response.as_ref().map(|r| r.1.bound())];
         Self {
             rig,
             stimuli: &motion.stimuli,
-            strength: if motion.strength.is_finite() { motion.strength.clamp(0.0, 1.0) } else { 0.0 },
+            strength: strength * risen(motion.age, motion.rise),
             phase,
             bound: bounds.into_iter().flatten().fold(0.0, f32::max),
         }

@@ -179,7 +179,9 @@ fn cyclic(raw: &ChartsDescription, phases: bool) -> Result<CyclicMotion, MotionR
     match raw.speed {
         None if phases => Err(fault(chart_place(false, "speed"), Kind::NoSpeed)),
         // Without phases nothing is shifted, whatever the speed.
-        speed => Ok(CyclicMotion { charts, speed: speed.unwrap_or(1.0) }),
+        speed => {
+            Ok(CyclicMotion { charts, speed: speed.unwrap_or(1.0), rise: raw.rise.unwrap_or(0.0) })
+        }
     }
 }
 
@@ -187,6 +189,9 @@ fn response(raw: &StimulusDescription, cycle: Option<&DeformationCharts>) -> Res
     let charts = match (&raw.charts, cycle) {
         (Some(own), _) if own.speed.is_some() => {
             return Err(fault(chart_place(true, "speed"), Kind::SpeedOfStimulus));
+        }
+        (Some(own), _) if own.rise.is_some() => {
+            return Err(fault(chart_place(true, "rise"), Kind::RiseOfStimulus));
         }
         (Some(own), _) => charts(own, true)?,
         (None, Some(cycle)) => cycle.clone(),

@@ -34,6 +34,7 @@ fn colour(place: Place, colour: Option<[f32; 3]>) -> Check {
 /// Checks everything but fields and charts.
 pub(super) fn check(rig: &RigDescription, mesh: &TetrahedralMesh) -> Check {
     body(rig)?;
+    rise(rig)?;
     stimulus(rig)?;
     world(rig)?;
     attachments(rig, mesh)
@@ -56,6 +57,11 @@ fn body(rig: &RigDescription) -> Check {
     }
     rig.damping.map_or(Ok(()), |v| not_negative(Place::root("damping"), v))?;
     colour(Place::root("colour"), rig.colour)
+}
+
+fn rise(rig: &RigDescription) -> Check {
+    let rise = rig.charts.as_ref().and_then(|charts| charts.rise);
+    within(Place::table("charts", "rise"), rise, 0.0, 1.0e6, "from 0 to 1e6 s")
 }
 
 fn stimulus(rig: &RigDescription) -> Check {

@@ -144,6 +144,9 @@ pub struct ChartsDescription {
     /// Propagation speed v: phase shift 1 comes 1/v seconds later. Needed with painted phases; not for stimuli.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<f32>,
+    /// Seconds in which the cycle of a new body grows smoothly from nothing; 0 without. Not for stimuli.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rise: Option<f32>,
     /// Control points `[phase, rate]`.
     pub primary: Vec<[f32; 2]>,
     /// The same of the secondary chart; only where `volume` is `"free"`.

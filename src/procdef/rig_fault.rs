@@ -119,6 +119,9 @@ pub enum MotionRigFaultKind {
     /// A propagation speed where none acts.
     #[error("belongs to the stimulus itself, not to its charts")]
     SpeedOfStimulus,
+    /// A rise where nothing begins by itself.
+    #[error("is for the cycle; an answer to a touch begins when the signal comes")]
+    RiseOfStimulus,
     /// A stimulus without charts in a rig without.
     #[error("has no `charts`, and the rig has none either")]
     NoCharts,

@@ -122,7 +122,7 @@ impl ProcDefWorld {
         ProcDefHandle(self.entries.insert(ProcDefEntry {
             attached,
             body,
-            motion: Motion::at(start.clock),
+            motion: Motion::rising(start.clock, &model.motion),
             link: ProcDefLink { soft_body, attachments },
             trigger: model.trigger.map(ContactTrigger::new),
             directions,

@@ -27,7 +27,7 @@ fn fields(mesh: &TetrahedralMesh, amplitude: f32) -> MotionFields {
 }
 
 fn cyclic(volume: VolumeMode) -> Option<CyclicMotion> {
-    Some(CyclicMotion { charts: charts(2.0, volume), speed: 0.8 })
+    Some(CyclicMotion { charts: charts(2.0, volume), speed: 0.8, rise: 0.0 })
 }
 
 fn transforms(motion: &Motion, rig: &MotionRig) -> Vec<Mat3> {
@@ -110,7 +110,7 @@ fn a_signal_comes_later_where_the_phase_shift_is_larger_and_backwards_with_a_neg
     let mut chart = charts(2.0, VolumeMode::Both);
     chart.charts[0] = LineChart::through(&[[0.0, 1.0], [0.05, 0.5], [0.1, 1.0]], ChartInterpolation::Linear).unwrap();
     let strongest = |speed: f32, v: usize| {
-        let motion = Some(CyclicMotion { charts: chart.clone(), speed });
+        let motion = Some(CyclicMotion { charts: chart.clone(), speed, rise: 0.0 });
         let rig = MotionRig::new(&mesh, fields(&mesh, 1.0), motion, None).unwrap();
         let rate = |step: i32| Motion::at(2.0 + f64::from(step) * 0.01).rates(&rig, v)[0];
         (0..200).min_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap()
@@ -204,6 +204,37 @@ fn strength_and_pace_stop_the_cycle() {
 }
 
 #[test]
+fn a_rising_cycle_grows_from_rest_to_all_of_its_strength_and_keeps_the_volume() {
+    let mesh = bar([6, 1, 1], 0.5);
+    let cycle = CyclicMotion { rise: 0.5, ..cyclic(VolumeMode::Secondary).unwrap() };
+    let rig = MotionRig::new(&mesh, fields(&mesh, 1.0), Some(cycle), None).unwrap();
+    let mut motion = Motion::rising(0.3, &rig);
+    assert!(transforms(&motion, &rig).iter().all(|t| *t == Mat3::IDENTITY), "it begins at rest");
+    let mut before = vec![[0.0f32; 3]; mesh.vertex_count()];
+    for step in 1..=60 {
+        motion.advance(&rig, 1.0 / 60.0);
+        let whole = Motion::at(motion.clock);
+        let u = (f64::from(step) / 30.0).min(1.0);
+        let share = (u * u * (3.0 - 2.0 * u)) as f32;
+        for (v, before) in before.iter_mut().enumerate() {
+            let (rates, all) = (motion.rates(&rig, v), whole.rates(&rig, v));
+            assert!((0..3).all(|k| (rates[k].ln() - share * all[k].ln()).abs() < 1e-5), "{step}: {rates:?} {all:?}");
+            assert!((rates[0] * rates[1] * rates[2] - 1.0).abs() < 1e-6);
+            // At once it would jump by up to 0.69, the logarithm of 2.
+            assert!((rates[0].ln() - before[0]).abs() < 0.08, "{step}: {rates:?}");
+            *before = rates.map(f32::ln);
+        }
+    }
+    // It is no part of the pace, and what is set by hand counts.
+    motion.rise = 0.0;
+    assert_eq!(motion.rates(&rig, 3), Motion::at(motion.clock).rates(&rig, 3));
+    let mut stopped = Motion::rising(0.3, &rig);
+    stopped.pace = 0.0;
+    stopped.advance(&rig, 0.5);
+    assert_eq!(stopped.rates(&rig, 3), Motion::at(0.3).rates(&rig, 3));
+}
+
+#[test]
 fn excitation_is_minus_one_at_full_contraction_and_is_drawn_red() {
     let mesh = bar([4, 1, 1], 0.5);
     let mut cycle = cyclic(VolumeMode::Both).unwrap();
@@ -234,4 +265,7 @@ fn fields_of_another_mesh_are_refused() {
     let still = CyclicMotion { speed: 0.0, ..cyclic(VolumeMode::Both).unwrap() };
     let error = MotionRig::new(&mesh, fields(&mesh, 1.0), Some(still), None).unwrap_err();
     assert_eq!(error, MotionError::Speed(0.0));
+    let backwards = CyclicMotion { rise: -1.0, ..cyclic(VolumeMode::Both).unwrap() };
+    let error = MotionRig::new(&mesh, fields(&mesh, 1.0), Some(backwards), None).unwrap_err();
+    assert_eq!(error, MotionError::Rise(-1.0));
 }

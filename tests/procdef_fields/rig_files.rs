@@ -44,6 +44,7 @@ fn everything() -> RigDescription {
             volume: Some("free".into()),
             interpolation: Some("smooth".into()),
             speed: Some(-0.7),
+            rise: Some(0.4),
             primary: vec![[0.0, 1.0], [0.3, 0.7]],
             secondary: Some(vec![[0.1, 1.2]]),
             tertiary: Some(vec![[0.0, 1.1], [0.9, 0.9]]),
@@ -90,7 +91,7 @@ fn what_is_written_is_read_again() {
     assert_eq!(fs::read_to_string(&path).unwrap(), text);
     // What it says has come to the motion.
     let motion = &read.built.motion;
-    assert_eq!(motion.cyclic().unwrap().speed, -0.7);
+    assert_eq!((motion.cyclic().unwrap().speed, motion.cyclic().unwrap().rise), (-0.7, 0.4));
     assert_eq!(motion.cyclic().unwrap().charts.at(0.3)[0], 0.7);
     assert_eq!(motion.response().unwrap().charts.cycle, 0.6);
     assert_eq!(read.built.trigger.unwrap().threshold, 0.1);
@@ -166,6 +167,7 @@ fn every_fault_is_told_with_its_line_and_key() {
             format!("{head}{charts}secondary = [[0.0, 1.0]]\n"),
             "rig.toml:6: charts: `secondary` follows from the primary chart",
         ),
+        (format!("{head}{charts}rise = -0.5\n"), "rig.toml:6: charts: `rise` must be from 0 to 1e6 s and is -0.5"),
         (format!("{head}{charts}speed = 0.0\n"), "the propagation speed is 0"),
         (
             format!("{head}[charts]\ncycle = 1.0\nprimary = [[0.0, 3.0]]\n"),
@@ -186,6 +188,12 @@ fn every_fault_is_told_with_its_line_and_key() {
                 "{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\n[stimulus.charts]\ncycle = 1.0\nprimary = [[0.0, 1.0]]\nspeed = 1.0\n"
             ),
             "rig.toml:9: stimulus: charts: `speed` belongs to the stimulus itself",
+        ),
+        (
+            format!(
+                "{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\n[stimulus.charts]\ncycle = 1.0\nprimary = [[0.0, 1.0]]\nrise = 1.0\n"
+            ),
+            "rig.toml:9: stimulus: charts: `rise` is for the cycle",
         ),
         (format!("{head}[contact]\nfriction = -1.0\n"), "rig.toml:4: contact: `friction` must be"),
         (

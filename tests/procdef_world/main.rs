@@ -4,6 +4,7 @@ mod behaviour;
 mod bowel;
 mod contacts;
 mod crowds;
+mod drops;
 mod heart;
 mod scene;
 mod vertices;

@@ -44,7 +44,7 @@ impl Figures {
 }
 
 impl Report {
-    /// Two tables of text.
+    /// Three tables of text.
     pub fn table(&self) -> String {
         let mut text = format!(
             "Milliseconds a step of 1/{:.0} s, medians of {} steps (the quickest of {} runs), {} threads.\n\nFields and matching alone\n",
@@ -74,6 +74,16 @@ impl Report {
                 row.matching_limit,
                 m.all_cores
             );
+        }
+        let _ = writeln!(
+            text,
+            "\nAs stiff as 64 passes of matching, one core\n{:10} {:>8} {:>12} {:>6}",
+            "scene", "one pass", "global solve", "times"
+        );
+        for f in &self.rows {
+            let m = &f.matching;
+            let times = m.solve / m.one_pass.max(f64::MIN_POSITIVE);
+            let _ = writeln!(text, "{:10} {:8.3} {:12.3} {times:6.2}", f.row.name, m.one_pass, m.solve);
         }
         let _ = writeln!(
             text,

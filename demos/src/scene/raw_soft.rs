@@ -21,6 +21,7 @@ pub struct RawSoftBody {
     pub clock: f32,
     pub pace: Option<f32>,
     pub strength: Option<f32>,
+    pub rise: Option<f32>,
     pub stiffness: Option<f32>,
     pub iterations: Option<u32>,
     pub ground: Option<GroundDescription>,

@@ -54,6 +54,7 @@ fn soft_body(at: &At, raw: &RawSoftBody) -> Result<SoftBody, TomlError> {
         clock: at.between("clock", raw.clock, -LARGEST, LARGEST)?,
         pace: at.between("pace", raw.pace.unwrap_or(1.0), -FASTEST, FASTEST)?,
         strength: at.between("strength", raw.strength.unwrap_or(1.0), 0.0, 1.0)?,
+        rise: raw.rise.map(|rise| at.between("rise", rise, 0.0, LARGEST)).transpose()?,
         stiffness,
         ground: raw.ground.map(|g| ground(&at.table("ground"), g)).transpose()?,
         colour: at.colour(raw.colour)?,

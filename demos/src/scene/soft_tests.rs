@@ -18,6 +18,7 @@ name = "worm"
 rig = "scene.toml"
 position = [1, 2, 3]
 pace = -1
+rise = 0.5
 iterations = 4
 ground = { direction = [1, 0, 0], forward = 0.1, backward = 1, sideways = 0.5 }
 opacity = 0.5
@@ -60,6 +61,7 @@ fn a_scene_of_soft_bodies_is_read_whole() {
     let worm = &scene.soft_bodies[0];
     assert_eq!((worm.pace, worm.strength, worm.stiffness), (-1.0, 1.0, Some(Stiffness::Iterations(4))));
     assert_eq!((worm.pose.translation, worm.opacity), (Vec3::new(1.0, 2.0, 3.0), 0.5));
+    assert_eq!((worm.rise, scene.soft_bodies[1].rise), (Some(0.5), None));
     assert_eq!(worm.ground.unwrap().sideways, 0.5);
     assert_eq!(scene.water, [Water { min: Vec3::splat(-5.0), max: Vec3::new(5.0, 0.0, 5.0), flow: Vec3::X * 0.1 }]);
     assert_eq!(scene.obstacles[0].dynamic.unwrap().linear_damping, 1.5);
@@ -97,39 +99,40 @@ fn bad_soft_bodies_are_refused_with_their_line_and_a_hint() {
         ("name = \"worm\"", "name = \" \"", 10, "soft_body 0: `name` is empty"),
         ("rig = \"scene.toml\"", "rig = \"wurm.toml\"", 11, "wurm.toml"),
         ("pace = -1", "paec = -1", 13, "did you mean `pace`?"),
+        ("rise = 0.5", "rise = -1", 14, "soft_body 0: `rise` must be from 0"),
         ("pace = -1", "pace = inf", 13, "`pace` must be from -1000 to 1000"),
-        ("iterations = 4", "iterations = 65", 14, "`iterations` must be from 1 to 64 and is 65"),
-        ("iterations = 4", "iterations = 4\nstiffness = 0.5", 14, "`iterations` is given beside `stiffness`"),
-        ("direction = [1, 0, 0]", "direction = [0, 0, 0]", 15, "soft_body 0, ground: `direction` has no length"),
-        ("forward = 0.1", "forward = -0.1", 15, "`forward`"),
-        ("forward = 0.1", "foreward = 0.1", 15, "did you mean `forward`?"),
-        ("opacity = 0.5", "opacity = 2", 16, "`opacity` must be from 0 to 1"),
-        ("name = \"swarm\"", "name = \"worm\"", 18, "`worm` is the name of soft body 0 too"),
-        ("name = \"worm\"", "name = \"swarm 2\"", 18, "`swarm 2` is the name of soft body 0 too"),
-        ("stiffness = 0.5", "stiffness = 1.5", 20, "soft_body 1: `stiffness` must be from 0 to 1"),
-        ("count = 7", "count = 0", 21, "soft_body 1, crowd: `count` must be from 1"),
-        ("columns = [2, 2]", "columns = [2, 0]", 21, "`columns`"),
-        ("scatter = 0.2", "scatter = 2", 21, "`scatter` must be from 0 to 1"),
-        ("linear_damping = 1.5", "linear_damping = -1", 26, "`linear_damping`"),
-        ("dynamic = true\nlinear", "linear", 25, "`linear_damping` is a key of dynamic obstacles"),
+        ("iterations = 4", "iterations = 65", 15, "`iterations` must be from 1 to 64 and is 65"),
+        ("iterations = 4", "iterations = 4\nstiffness = 0.5", 15, "`iterations` is given beside `stiffness`"),
+        ("direction = [1, 0, 0]", "direction = [0, 0, 0]", 16, "soft_body 0, ground: `direction` has no length"),
+        ("forward = 0.1", "forward = -0.1", 16, "`forward`"),
+        ("forward = 0.1", "foreward = 0.1", 16, "did you mean `forward`?"),
+        ("opacity = 0.5", "opacity = 2", 17, "`opacity` must be from 0 to 1"),
+        ("name = \"swarm\"", "name = \"worm\"", 19, "`worm` is the name of soft body 0 too"),
+        ("name = \"worm\"", "name = \"swarm 2\"", 19, "`swarm 2` is the name of soft body 0 too"),
+        ("stiffness = 0.5", "stiffness = 1.5", 21, "soft_body 1: `stiffness` must be from 0 to 1"),
+        ("count = 7", "count = 0", 22, "soft_body 1, crowd: `count` must be from 1"),
+        ("columns = [2, 2]", "columns = [2, 0]", 22, "`columns`"),
+        ("scatter = 0.2", "scatter = 2", 22, "`scatter` must be from 0 to 1"),
+        ("linear_damping = 1.5", "linear_damping = -1", 27, "`linear_damping`"),
+        ("dynamic = true\nlinear", "linear", 26, "`linear_damping` is a key of dynamic obstacles"),
         (
             "body = \"worm\"",
             "body = \"wrom\"",
-            28,
+            29,
             "attachment 0: `body` is no soft body's name: `wrom`, did you mean `worm`?",
         ),
-        ("radius = 0.3", "radius = 0", 30, "`radius` must be above 0"),
-        ("obstacle = \"bead\"", "obstacle = \"beat\"", 31, "did you mean `bead`?"),
+        ("radius = 0.3", "radius = 0", 31, "`radius` must be above 0"),
+        ("obstacle = \"bead\"", "obstacle = \"beat\"", 32, "did you mean `bead`?"),
         (
             "body = \"swarm\"",
             "body = \"swam\"",
-            33,
+            34,
             "cue 0: `body` is no soft body's name: `swam`, did you mean `swarm`?",
         ),
-        ("time = 1.5", "time = -1", 34, "`time` must be from 0"),
-        ("touch = [0, 1, 0]", "", 34, "give `touch`, `pace` or `strength`"),
-        ("touch = [0, 1, 0]", "touch = [0, inf, 0]", 35, "`touch` must be finite"),
-        ("strength = 0", "strength = 1.1", 39, "`strength` must be from 0 to 1"),
+        ("time = 1.5", "time = -1", 35, "`time` must be from 0"),
+        ("touch = [0, 1, 0]", "", 35, "give `touch`, `pace` or `strength`"),
+        ("touch = [0, 1, 0]", "touch = [0, inf, 0]", 36, "`touch` must be finite"),
+        ("strength = 0", "strength = 1.1", 40, "`strength` must be from 0 to 1"),
     ];
     for (from, to, line, words) in table {
         assert!(GOOD.contains(from), "{from}");

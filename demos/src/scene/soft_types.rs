@@ -21,6 +21,8 @@ pub struct SoftBody {
     pub pace: f32,
     /// Exponent on the rates of its cycle, from 0 to 1.
     pub strength: f32,
+    /// Seconds in which its cycle grows from nothing, instead of those of the rig.
+    pub rise: Option<f32>,
     /// Stiffness instead of that of the rig.
     pub stiffness: Option<Stiffness>,
     /// Friction along and against a direction instead of that of the rig.

@@ -121,6 +121,7 @@ pub(super) fn insert_soft_bodies(
         }
         if let Some(motion) = creatures.motion_mut(handle) {
             (motion.pace, motion.strength) = (body.pace, body.strength);
+            motion.rise = body.rise.unwrap_or(motion.rise);
         }
         let (name, colour, opacity) = (body.name.clone(), body.colour, body.opacity);
         actors.push(SoftActor { name, handle, kind, colour, opacity });

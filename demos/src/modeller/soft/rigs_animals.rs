@@ -15,7 +15,10 @@ use super::{jellyfish as jelly, shell, snail as body, worm as worms};
 pub fn jellyfish(name: &str) -> RigDescription {
     let mut rig = rig_of(name, true);
     rig.stiffness = Some(0.5);
+    // A crowd needs no strong strokes.
+    let mut primary = vec![[0.0, 1.0], [0.12, 0.45], [0.25, 0.5], [0.9, 1.0]];
     if name == "jellyfish" {
+        (primary[1][1], primary[2][1]) = (0.4, 0.45);
         // At each stroke the flat cells where the tentacles begin would bend through themselves.
         rig.least_volume = Some(0.05);
     }
@@ -26,7 +29,7 @@ pub fn jellyfish(name: &str) -> RigDescription {
         volume: Some("both".into()),
         interpolation: Some("smooth".into()),
         speed: Some(1.6),
-        primary: vec![[0.0, 1.0], [0.12, 0.45], [0.25, 0.5], [0.9, 1.0]],
+        primary,
         ..ChartsDescription::default()
     });
     rig.stimulus = Some(StimulusDescription { speed: 2.0, damping: 2.0, ..StimulusDescription::default() });

@@ -119,6 +119,8 @@ pub fn bowel() -> RigDescription {
         volume: Some("secondary".into()),
         interpolation: Some("smooth".into()),
         speed: Some(0.25),
+        // All of it is in the wave from the start: without a rise the first stroke would turn cells inside out.
+        rise: Some(0.4),
         primary: vec![[0.0, 1.0], [0.12, 0.55], [0.2, 0.55], [0.35, 1.0], [0.5, 1.15], [0.7, 1.0]],
         ..ChartsDescription::default()
     });

@@ -31,7 +31,8 @@ fn profile(u: f32) -> (f32, f32) {
     let head = ((1.0 - u) / 0.12).min(1.0);
     let round = (1.0 - (1.0 - head).powi(2)).max(0.0).sqrt();
     let width = (0.06 + 0.2 * tail.powf(0.8)) * (0.6 + 0.4 * round) * (1.0 - 0.3 * ((u - 0.6) / 0.3).clamp(0.0, 1.0));
-    let height = (0.07 + 0.23 * tail) * (0.6 + 0.4 * round);
+    // Thick enough at the tail that its lowest cells are not pressed flat by the ground.
+    let height = (0.12 + 0.18 * tail) * (0.6 + 0.4 * round);
     (width, height)
 }
 
