@@ -116,7 +116,7 @@ impl ProcDefBody {
 
     /// The paper's iteration: each pass matches the goals of the one before.
     fn iterate(&mut self, rig: &ProcDefRig, passes: u32) {
-        self.matching.match_regions(&rig.regions, &self.shape);
+        self.matching.match_regions(&rig.regions, &rig.regions.weights, &self.shape);
         self.matching.blend(&rig.regions);
         for _ in 1..passes {
             self.matching.match_goals(&rig.regions);
@@ -130,12 +130,13 @@ impl ProcDefBody {
         if self.factor.as_ref().is_none_or(|(d, _)| *d != distance) {
             self.factor = rig.factor(distance).map(|factor| (distance, factor));
         }
-        self.matching.match_regions(&rig.regions, &self.shape);
         match &self.factor {
             Some((_, factor)) => {
+                self.matching.match_regions(&rig.regions, &rig.stiffening.turning, &self.shape);
                 self.matching.solve(&rig.stiffening, factor, &rig.regions, &self.shape);
             }
             None => {
+                self.matching.match_regions(&rig.regions, &rig.regions.weights, &self.shape);
                 self.matching.blend(&rig.regions);
                 self.matching.subtract(&self.shape);
             }

@@ -8,7 +8,9 @@
 //! ```
 //!
 //! one local and one global step of projective dynamics (Bouaziz et al. 2014) with the energy of as-rigid-as-possible
-//! deformation. The second term is the elastic energy of a material in which longitudinal waves run at the speed `c`, whatever
+//! deformation. The local step must be the best one for this very energy: `R_i` is the rotation nearest to
+//! `Σ_cells m_c/4 ∇x T_iᵀ` around the vertex, by the cells' gradients and not by the positions of the region's vertices. Else the
+//! force that comes of it is the gradient of no energy, and bodies swing ever higher. The second term is the elastic energy of a material in which longitudinal waves run at the speed `c`, whatever
 //! the mesh is (linear finite elements), and `h²` makes of it what one time step does. The matrix `M + (h c)² K` is constant,
 //! sparse, symmetric and positive: it is factored once for each `h c`, by nalgebra-sparse's Cholesky factorisation in the
 //! order of [`super::ordering`].
@@ -29,6 +31,9 @@ pub(super) struct Stiffening {
     /// `K` as rows, columns and values of its lower half, in the order of the regions.
     matrix: Vec<(u32, u32, f64)>,
     mass: Vec<f64>,
+    /// Beside each entry of the regions: `Σ m_c ∇φ` of that vertex over the cells around the region's own, beside their mass: `Σ x ⊗`
+    /// these is the mean gradient of the shape around a vertex, the identity at rest.
+    pub turning: Vec<f32x4>,
 }
 
 /// The factor of `M + (h c)² K`.
@@ -51,16 +56,20 @@ impl Stiffening {
         let density = total_mass / mesh.volume();
         let mut gradients = vec![DVec3::ZERO; regions.items.len()];
         let mut elements = vec![0.0f64; regions.items.len()];
+        let mut turning = vec![DVec3::ZERO; regions.items.len()];
+        let mut around = vec![0.0f64; n];
         for (cell, volume) in mesh.cells.iter().zip(mesh.volumes()) {
             let places = cell.map(|v| regions.place[v as usize] as usize);
             let x = cell.map(|v| mesh.positions[v as usize].as_dvec3());
             let mass = volume * density;
             let shape = shape_gradients(x);
             for (k, &row) in places.iter().enumerate() {
+                around[row] += mass;
                 for (j, &column) in places.iter().enumerate() {
                     let Ok(at) = regions.items[regions.row(row)].binary_search(&(column as u32)) else { continue };
                     let at = regions.row(row).start + at;
                     gradients[at] += shape[k] * (mass / 4.0);
+                    turning[at] += shape[j] * mass;
                     elements[at] += mass * shape[k].dot(shape[j]);
                 }
             }
@@ -75,7 +84,12 @@ impl Stiffening {
         }
         let pairs =
             gradients.iter().zip(&elements).map(|(g, &e)| [g.x as f32, g.y as f32, g.z as f32, e as f32]).collect();
-        Self { pairs, matrix, mass: regions.mass.iter().map(|&m| f64::from(m)).collect() }
+        let rows = (0..n).flat_map(|row| regions.row(row).map(move |_| row));
+        let turning = turning.iter().zip(rows).map(|(g, row)| {
+            let g = *g / around[row];
+            f32x4::new([g.x as f32, g.y as f32, g.z as f32, 0.0])
+        });
+        Self { pairs, matrix, turning: turning.collect(), mass: regions.mass.iter().map(|&m| f64::from(m)).collect() }
     }
 
     /// Factors `M + (h c)² K` for `h c` in metres; none if that is not a positive finite matrix in 64 bits.

@@ -77,13 +77,14 @@ impl Matching {
         }
     }
 
-    /// The maps of all regions for the shape `x`; the rotations are remembered.
-    pub fn match_regions(&mut self, regions: &Regions, x: &[f32x4]) {
+    /// The maps of all regions for the shape `x`; the rotations are remembered. `weights` are those of the regions, or of the
+    /// global solve, whose maps have a rotation and a deformation only.
+    pub fn match_regions(&mut self, regions: &Regions, weights: &[f32x4], x: &[f32x4]) {
         for (b, maps) in self.maps.chunks_mut(LANES).enumerate() {
             // Lanes without a region hold the identity, whose rotation is found at once.
             let mut sums = [NO_REGION; LANES];
             for (lane, sum) in sums.iter_mut().enumerate().take(maps.len()) {
-                *sum = region_sums(regions, x, b * LANES + lane);
+                *sum = region_sums(regions, weights, x, b * LANES + lane);
             }
             let rows: [[f32x8; 4]; 3] = std::array::from_fn(|i| to_lanes(sums.map(|sum| sum[i])));
             let a = rows.map(|[x, y, z, _]| [x, y, z]);
@@ -102,7 +103,7 @@ impl Matching {
     /// The maps of all regions for the goals of the pass before.
     pub fn match_goals(&mut self, regions: &Regions) {
         let goals = std::mem::take(&mut self.goals);
-        self.match_regions(regions, &goals);
+        self.match_regions(regions, &regions.weights, &goals);
         self.goals = goals;
     }
 
@@ -147,11 +148,11 @@ fn identity() -> WideMat3 {
 /// `Σ m̃ᵢ (xᵢ - x_r) qᵢᵀ` by rows, divided by the region's spread, and beside them `c_r`. The sums do not depend on the point
 /// that is subtracted, since the `m̃ᵢ qᵢ` add up to zero; subtracting keeps them exact far from the origin.
 #[inline]
-fn region_sums(regions: &Regions, x: &[f32x4], region: usize) -> [f32x4; 3] {
+fn region_sums(regions: &Regions, weights: &[f32x4], x: &[f32x4], region: usize) -> [f32x4; 3] {
     let row = regions.row(region);
     let own = x[region];
     let mut sums = [f32x4::ZERO; 3];
-    for (&i, &weight) in regions.items[row.clone()].iter().zip(&regions.weights[row]) {
+    for (&i, &weight) in regions.items[row.clone()].iter().zip(&weights[row]) {
         let [a, b, c, _] = (x[i as usize] - own).to_array();
         sums[0] += weight * f32x4::splat(a);
         sums[1] += weight * f32x4::splat(b);
