@@ -4,7 +4,7 @@ use fastrand::Rng;
 use pliant::math::{Mat3, Quat, Vec3};
 use pliant::mesh::TetrahedralMesh;
 use pliant::procdef::{
-    ChartInterpolation, CyclicMotion, DeformationCharts, LineChart, Motion, MotionError, MotionFields, MotionRig,
+    ChartInterpolation, CyclicMotion, DeformationCharts, LineChart, MAX_STIMULI, Motion, MotionError, MotionFields, MotionRig,
     OrientationField, StimulusSettings, VolumeMode, excitation_colour, stretch_along,
 };
 
@@ -134,6 +134,8 @@ fn a_stimulus_arrives_after_distance_over_speed_with_its_damped_amplitude_and_pa
     let mut motion = Motion::default();
     let touched = Vec3::new(0.0, 0.25, 0.25);
     assert!(motion.touch(&rig, touched));
+    let told: Vec<(f32, f32)> =
+        (0..mesh.vertex_count()).map(|v| motion.stimuli()[0].arrival(v).expect("a vertex")).collect();
     let n = mesh.vertex_count();
     let (mut first, mut strongest, mut last) = (vec![0; n], vec![1.0f32; n], vec![0; n]);
     let mut steps = 0;
@@ -152,7 +154,11 @@ fn a_stimulus_arrives_after_distance_over_speed_with_its_damped_amplitude_and_pa
     for (v, x) in mesh.positions.iter().enumerate() {
         let d = x.distance(touched) / rig.length();
         let arrival = d / speed / dt;
-        assert!((first[v] as f32 - arrival).abs() <= 1.5, "{v}: {} {arrival}", first[v]);
+        // Distances are exact to 2e-3, which is a third of a step at the far end.
+        let (delay, amplitude) = told[v];
+        assert!((delay / dt - arrival).abs() < 2e-3 * arrival + 1e-3, "{v}: {delay} {arrival}");
+        assert!((amplitude - damping.powf(-d)).abs() < 3e-3, "{v}: {amplitude} {d}");
+        assert!((0.0..=1.001).contains(&(first[v] as f32 - delay / dt)), "{v}: {} {delay}", first[v]);
         assert!((last[v] as f32 - arrival - 0.5 / dt).abs() <= 1.5, "{v}: {} {arrival}", last[v]);
         // The peak lies between two steps, each 1/60 of the cycle: at most 1/60 of the way below it.
         let amplitude = strongest[v].ln() / 0.5f32.ln();
@@ -184,6 +190,38 @@ fn stimuli_add_up_in_any_order() {
         together += usize::from(one[v] != 1.0 && two[v] != 1.0);
     }
     assert!(together > 0, "the signals meet somewhere");
+}
+
+#[test]
+fn a_seventeenth_stimulus_takes_the_place_of_the_oldest() {
+    let mesh = bar([6, 1, 1], 0.5);
+    let rig = MotionRig::new(&mesh, fields(&mesh, 1.0), None, Some(StimulusSettings::default())).unwrap();
+    let mut motion = Motion::default();
+    for touch in 0..20 {
+        assert!(motion.touch(&rig, Vec3::X * 0.1 * touch as f32));
+        motion.advance(&rig, 0.01);
+    }
+    assert_eq!(motion.stimuli().len(), MAX_STIMULI);
+    assert!((motion.stimuli()[0].elapsed - 0.16).abs() < 1e-6, "{}", motion.stimuli()[0].elapsed);
+    assert!(!motion.touch(&rig, Vec3::NAN));
+}
+
+#[test]
+fn charts_at_one_leave_the_body_as_it_is() {
+    let mesh = bar([6, 1, 1], 0.5);
+    let mut rng = Rng::with_seed(5);
+    for volume in [VolumeMode::Free, VolumeMode::Both, VolumeMode::Secondary] {
+        let ones = DeformationCharts { volume, ..DeformationCharts::default() };
+        let mut fields = fields(&mesh, 1.0);
+        fields.amplitude.iter_mut().for_each(|a| *a = 2.0 * rng.f32() - 1.0);
+        let cycle = CyclicMotion { charts: ones.clone(), speed: 0.8, rise: 0.0 };
+        let response = StimulusSettings { charts: ones, ..StimulusSettings::default() };
+        let rig = MotionRig::new(&mesh, fields, Some(cycle), Some(response)).unwrap();
+        let mut motion = Motion::at(0.7);
+        assert!(motion.touch(&rig, Vec3::ZERO));
+        motion.advance(&rig, 0.3);
+        assert!(transforms(&motion, &rig).iter().all(|t| *t == Mat3::IDENTITY), "{volume:?}");
+    }
 }
 
 #[test]

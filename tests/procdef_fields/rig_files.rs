@@ -213,10 +213,117 @@ fn every_fault_is_told_with_its_line_and_key() {
             "rig.toml:4: attachment 0: `name` is empty",
         ),
         (format!("{head}skin = \"none.obj\"\n"), "rig.toml:3: `skin` cannot be used"),
+        ("mesh = \"bar.stl\"\ndensity = 1.0\n".into(), "rig.toml:1: `mesh` cannot be used"),
+        ("mesh = \"\"\ndensity = 1.0\n".into(), "rig.toml:1: `mesh` cannot be used"),
+        ("mesh = 3\ndensity = 1.0\n".into(), "rig.toml:1: "),
+        ("mesh = \"bar.mesh\"\ndensity = \"heavy\"\n".into(), "rig.toml:2: "),
+        ("mesh = \"bar.mesh\"\ndensity = 0.0\n".into(), "rig.toml:2: `density` must be"),
+        ("mesh = \"bar.mesh\"\ndensity = inf\n".into(), "rig.toml:2: `density` must be"),
+        ("mesh = \"bar.mesh\"\nmass = -1.0\n".into(), "rig.toml:2: `mass` must be"),
+        ("mesh = \"bar.mesh\"\nmass = 1.0\nmass = 2.0\n".into(), "rig.toml:3: "),
+        ("mesh = \"bar.mesh\"\ndensity = 1.0\n[charts\n".into(), "rig.toml:3: "),
+        (format!("{head}iterations = 65\n"), "rig.toml:3: `iterations` must be from 1 to 64 and is 65"),
+        (format!("{head}iterations = 2.5\n"), "rig.toml:3: "),
+        (format!("{head}iterations = -2\n"), "rig.toml:3: "),
+        (format!("{head}stiffness = nan\n"), "rig.toml:3: `stiffness` must be from 0 to 1 and is NaN"),
+        (format!("{head}stiffness = 1.01\n"), "rig.toml:3: `stiffness` must be from 0 to 1"),
+        (format!("{head}damping = inf\n"), "rig.toml:3: `damping` must be"),
+        (format!("{head}keep_volume = 1\n"), "rig.toml:3: "),
+        (format!("{head}colour = [0.1, 0.2]\n"), "rig.toml:3: "),
+        (format!("{head}[contact]\nfriction = 0.1\nself_contacts = true\n"), "did you mean `self_contact`?"),
+        (format!("{head}[contact]\nself_contact = true\n"), "rig.toml:3: "),
+        (
+            format!("{head}[stimulus]\nspeed = 0.0\ndamping = 2.0\n{charts}"),
+            "rig.toml:4: stimulus: `speed` must be from 1e-3",
+        ),
+        (
+            format!("{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\nthreshold = -0.1\n{charts}"),
+            "rig.toml:6: stimulus: `threshold` must be",
+        ),
+        (
+            format!("{head}[stimulus]\nspeed = 1.0\ndamping = 2.0\nrefractory = nan\n{charts}"),
+            "rig.toml:6: stimulus: `refractory` must be",
+        ),
+        (format!("{head}[charts]\ncycle = 1.0\n"), "rig.toml:3: the key `primary` is missing"),
+        (format!("{head}[charts]\ncycle = 1.0\nprimary = [[0.0]]\n"), "rig.toml:5: "),
+        (
+            format!("{head}[charts]\ncycle = 1.0\nprimary = [[0.5, 1.0], [0.2, 1.0]]\n"),
+            "rig.toml:5: charts: `primary` primary chart: control point 1",
+        ),
+        (
+            format!("{head}[charts]\ncycle = 1.0\nprimary = [[nan, 1.0]]\n"),
+            "rig.toml:5: charts: `primary` primary chart: control point 0",
+        ),
+        (
+            format!("{head}[[layer]]\nvalue = 0.0\nregion = {{ seed = [9.0, 0.0, 0.0], angle_degrees = 30.0 }}\n"),
+            "rig.toml:5: layer 0: `region`",
+        ),
+        (
+            format!("{head}[[layer]]\nvalue = 0.0\nregion = {{ seed = [nan, 0.0, 0.0], angle_degrees = 30.0 }}\n"),
+            "rig.toml:5: layer 0: `region`",
+        ),
+        (format!("{head}[[layer]]\nvalue = 0.0\nface = -1\n"), "rig.toml:5: "),
+        (format!("{head}[[layer]]\nvalue = nan\nface = 1\n"), "rig.toml:4: layer 0: `value` must be from 0 to 1"),
+        (format!("{head}[[layer]]\nvalue = 0.0\nstroke = []\n"), "rig.toml:5: layer 0: `stroke`"),
+        (
+            format!(
+                "{head}[[layer]]\nvalue = 0.0\nsection = {{ origin = [1.0, 0.0, 0.0], normal = [0.0, 0.0, 0.0] }}\n"
+            ),
+            "rig.toml:5: layer 0: `section`",
+        ),
+        (format!("{head}[water]\ndensity = -1.0\nnormal_drag = 1.0\ntangential_drag = 0.0\n"), "rig.toml:4: water: `density`"),
+        (
+            format!("{head}[ground]\ndirection = [1.0, 0.0, 0.0]\nforward = 0.1\nbackward = -0.1\nsideways = 0.1\n"),
+            "rig.toml:6: ground: `backward` must be",
+        ),
+        (
+            format!("{head}[[attachment]]\nname = \"a\"\ncentre = [1.0, 0.5, 0.5]\nradius = -0.6\n"),
+            "rig.toml:6: attachment 0: `radius` must be",
+        ),
+        (
+            format!("{head}[[attachment]]\nname = \"a\"\ncentre = [inf, 0.5, 0.5]\nradius = 0.6\n"),
+            "rig.toml:5: attachment 0: `centre` must be finite",
+        ),
+        (
+            format!("{head}[[attachment]]\nname = \"a\"\nmesh = \"no.obj\"\ncentre = [1.0, 0.5, 0.5]\nradius = 0.6\n"),
+            "rig.toml:5: attachment 0: `mesh` cannot be used",
+        ),
+        (
+            format!(
+                "{head}[[attachment]]\nname = \"a\"\ncentre = [1.0, 0.5, 0.5]\nradius = 0.6\n[[attachment]]\nname = \"a\"\ncentre = [1.0, 0.5, 0.5]\nradius = 0.6\n"
+            ),
+            "rig.toml:8: attachment 1: `name` is empty or the name of an earlier",
+        ),
     ];
+    let mut failed = Vec::new();
     for (text, expected) in cases {
         let message = error(text);
-        assert!(message.contains(expected), "{text}\n{message}\nshould contain {expected}");
+        if !message.contains(expected) || message.contains('\n') {
+            failed.push(format!("{text}\n{message}\nshould contain {expected}"));
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n\n"));
+}
+
+#[test]
+fn what_is_no_rig_file_and_skins_with_faults_are_told_with_file_and_line() {
+    let folder = folder("mesh = \"bar.mesh\"\ndensity = 1000.0\nskin = \"skin.obj\"\n");
+    let folder = folder.path();
+    let message = |name: &str| load_motion_rig(folder.join(name)).expect_err(name).to_string();
+    assert!(message("none.toml").contains("none.toml: "));
+    fs::create_dir(folder.join("folder.toml")).unwrap();
+    assert!(message("folder.toml").contains("folder.toml: "));
+    fs::write(folder.join("latin.toml"), b"mesh = \"caf\xe9.mesh\"\n").unwrap();
+    assert!(message("latin.toml").contains("latin.toml"), "{}", message("latin.toml"));
+    for (skin, told) in [
+        ("", "skin.obj:1: "),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n", "skin.obj:3: "),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "skin.obj:4: "),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "skin.obj:4: "),
+    ] {
+        fs::write(folder.join("skin.obj"), skin).unwrap();
+        let message = message("rig.toml");
+        assert!(message.contains("rig.toml:3: `skin` cannot be used: ") && message.contains(told), "{message}");
     }
 }
 

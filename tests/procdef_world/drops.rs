@@ -1,14 +1,31 @@
 //! A rigid ball against every body that is shipped: in space it hits the body and the momentum of both is kept, on the ground it is
 //! dropped on it and bounces or comes to rest, and neither gets into the other.
 
+use std::f32::consts::FRAC_PI_2;
+use std::sync::Arc;
+
 use crate::scene::{Scene, model};
-use pliant::math::Vec3;
+use pliant::coupling::procdef::ProcDefStart;
+use pliant::math::{Pose, Quat, Vec3};
 use pliant::procdef::{ContactKind, ProcDefModel};
 use pliant::world::ProcDefHandle;
 use rapier3d::parry::query::PointQuery;
 use rapier3d::parry::shape::TriMesh;
 use rapier3d::prelude::*;
 use rapier3d::utils::AngularInertiaOps;
+
+/// Overlap that rapier's solver leaves alone, its allowed linear error, in metres.
+const ALLOWED: f32 = 0.001;
+
+/// A kind of body that does not answer the ball by a movement of its own.
+fn still(name: &str) -> Arc<ProcDefModel> {
+    let mut kind = (*model(name)).clone();
+    kind.trigger = None;
+    let mut motion = (*kind.motion).clone();
+    motion.set_cyclic(None).expect("no charts");
+    kind.motion = Arc::new(motion);
+    Arc::new(kind)
+}
 
 /// Every mesh that is shipped, by a rig of it.
 const BODIES: [&str; 8] =
@@ -82,7 +99,14 @@ fn the_momentum_of_a_ball_and_every_body_that_it_hits_in_space_is_kept() {
         let error = after[0].distance(before[0]) / before[0].length();
         // Beside the ball's own momentum at a distance of the body's size.
         let turning = after[1].distance(before[1]) / (before[0].length() * f64::from(kind.rig.size()));
-        println!("{name}: momentum {error:e}, angular {turning:e}, depth {deepest} m, hit {hit}");
+        println!("{name}: momentum {error:e}, angular {turning:e}, depth {deepest} m");
+        assert!(hit, "{name} is hit");
+        assert!(error < 1e-4, "{name}: {error}");
+        // Contacts of vertices keep the angular momentum; rapier's between surfaces turn a pair by some thousandths.
+        let most = if kind.contacts == ContactKind::Vertices { 1e-4 } else { 0.02 };
+        assert!(turning < most, "{name}: {turning}");
+        // What meets at 3 m/s is found a step of 1/120 s late at most.
+        assert!(deepest < 3.0 / 120.0 + ALLOWED, "{name}: {deepest}");
     }
 }
 
@@ -94,44 +118,46 @@ fn radius(kind: &ProcDefModel) -> f32 {
 #[test]
 fn a_ball_that_is_dropped_on_every_body_bounces_or_rests_and_does_not_get_into_it() {
     for name in BODIES {
-        let kind = model(name);
+        let kind = still(name);
         let radius = radius(&kind);
         let mut scene = Scene::new(9.81, 4);
         scene.floor();
         if kind.water.is_some() {
             scene.ocean();
         }
-        let handle = scene.insert_on_floor(&kind);
-        scene.bodies.motion_mut(handle).expect("a motion").strength = 0.0;
-        scene.run(1.0);
+        // The bowel stands on its edge in its mesh; it is laid down.
+        let turn = if name == "bowel" { Quat::from_rotation_x(FRAC_PI_2) } else { Quat::IDENTITY };
+        let lowest = kind.rig.mesh().positions.iter().map(|x| (turn * *x).y).fold(f32::MAX, f32::min);
+        let pose = Pose::from_parts(Vec3::Y * (0.01 - lowest), turn);
+        let start = ProcDefStart { pose, ..ProcDefStart::default() };
+        let handle = scene.bodies.insert(kind.clone(), &start, &mut scene.physics);
+        scene.run(3.0);
         // Above its middle; a snail's is under its shell, and it is hit on its neck.
-        let rest = &kind.rig.mesh().positions;
-        let middle = if name == "snail" { 0.55 } else { 0.0 };
-        let near = |v: &usize| (rest[*v].x - middle).hypot(rest[*v].z) < 0.2;
-        let positions = scene.body(handle).positions();
-        let top = (0..rest.len()).filter(near).max_by(|&a, &b| positions[a].y.total_cmp(&positions[b].y));
-        let top = positions[top.expect("vertices")];
+        let middle = scene.centre(handle) + Vec3::X * if name == "snail" { 0.45 } else { 0.0 };
+        let near = |x: &Vec3| (x.x - middle.x).hypot(x.z - middle.z) < 0.15;
+        let above = scene.body(handle).positions().iter().copied().filter(near);
+        let top = above.max_by(|a, b| a.y.total_cmp(&b.y)).expect("vertices");
         let ball = ball(&mut scene, top + Vec3::Y * (radius + 0.3), radius, 300.0, Vec3::ZERO);
-        scene.physics.bodies[ball].set_enabled_translations(false, true, false, true);
-        let (mut deepest, mut end, mut slowest, mut fall, mut touched) = (f32::MIN, f32::MIN, f32::MIN, 0f32, None);
+        let (mut deepest, mut fall, mut after) = (f32::MIN, 0f32, None);
         for frame in 0..240 {
             scene.run(1.0 / 60.0);
-            let gap = -depth(&scene, handle, ball, radius);
+            let d = depth(&scene, handle, ball, radius);
             let speed = scene.physics.bodies[ball].linvel().y;
-            if name == "jellyfish" && frame % 3 == 0 { let e: f32 = { let b = scene.body(handle); b.velocities().iter().zip(b.rig().masses()).map(|(v, m)| 0.5 * m * v.length_squared()).sum() };
-               println!("{frame}: gap {gap} v {speed} y {} body v {} at {} kinetic {e} low {}", scene.physics.bodies[ball].translation().y, scene.momentum(handle).y / 235.0, scene.centre(handle), scene.body(handle).positions().iter().map(|x| x.y).fold(9.0f32, f32::min)); }
-            deepest = deepest.max(-gap);
-            if gap < 0.02 {
-                touched.get_or_insert(frame);
+            deepest = deepest.max(d);
+            let since = after.get_or_insert_with(|| (d > -0.02).then_some((frame, f32::MIN)));
+            match since {
+                None => {
+                    fall = fall.max(-speed);
+                    after = None;
+                }
+                Some((touched, fastest)) if frame < *touched + 30 => *fastest = fastest.max(speed),
+                Some(_) => {}
             }
-            match touched {
-                None => fall = fall.max(-speed),
-                Some(since) => slowest = if frame < since + 30 { slowest.max(speed) } else { slowest },
-            }
-            end = if frame >= 210 { end.max(-gap) } else { end };
         }
-        let speed = scene.physics.bodies[ball].linvel().y;
-        let height = scene.physics.bodies[ball].translation().y;
-        println!("{name}: radius {radius}, touch {touched:?} at {fall}, deepest {deepest} m, at the end {end} m, {slowest} m/s after the touch, {speed} m/s at the end, height {height}");
+        let (_, fastest) = after.flatten().unwrap_or_else(|| panic!("{name} is touched"));
+        println!("{name}: radius {radius}, falls at {fall} m/s, {fastest} m/s after the touch, {deepest} m deep");
+        assert!(fall > 1.0, "{name}: {fall}");
+        assert!((-0.3..fall).contains(&fastest), "{name} stops it or throws it back: {fastest}");
+        assert!(deepest < ALLOWED, "{name}: {deepest}");
     }
 }

@@ -1,7 +1,7 @@
 //! The set of bodies: handles, faults, threads, grips, attachments.
 
 use crate::scene::{Scene, model};
-use pliant::coupling::procdef::ParticleFault;
+use pliant::coupling::procdef::{ParticleFault, WaterRegion};
 use pliant::math::Vec3;
 use rapier3d::prelude::*;
 
@@ -56,6 +56,44 @@ fn the_same_bits_come_out_on_one_thread_and_on_many() {
     };
     let one = run(1);
     assert!(one.iter().zip(&run(4)).all(|(a, b)| a.to_array().map(f32::to_bits) == b.to_array().map(f32::to_bits)));
+}
+
+/// Everything at once: matching by passes and by the solve, charts, stimuli, water, contacts of surfaces and of vertices, directed
+/// friction, a shell, rigid balls.
+fn menagerie(threads: usize) -> Vec<u32> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    pool.install(|| {
+        let mut scene = Scene::new(9.81, 4);
+        scene.floor();
+        let water = WaterRegion { min: Vec3::new(-9.0, -9.0, 2.5), max: Vec3::splat(9.0), flow: Vec3::X * 0.1 };
+        scene.bodies.water.push(water);
+        let mut handles = vec![
+            scene.insert(&model("worm"), Vec3::new(0.0, 0.2, 0.0)),
+            scene.insert(&model("snail"), Vec3::new(0.0, 0.02, 1.2)),
+            scene.insert(&model("jellyfish"), Vec3::new(0.0, 1.3, 4.0)),
+        ];
+        let small = model("short_worm");
+        handles.extend((0..4).map(|i| scene.insert(&small, Vec3::new(0.1 * i as f32, 0.5 + 0.4 * i as f32, 0.05))));
+        let balls: Vec<_> = [Vec3::new(0.3, 0.8, 0.0), Vec3::new(0.5, 1.0, 1.2), Vec3::new(0.1, 2.2, 4.0)]
+            .map(|x| {
+                let body = RigidBodyBuilder::dynamic().translation(x).linvel(Vec3::NEG_Y);
+                scene.physics.insert(body, ColliderBuilder::ball(0.12).density(800.0)).0
+            })
+            .to_vec();
+        scene.run(1.0);
+        assert!(handles.iter().any(|&h| !scene.bodies.motion(h).expect("a motion").stimuli().is_empty()), "one is felt");
+        let soft = handles.iter().flat_map(|&h| scene.body(h).positions().to_vec());
+        let rigid = balls.iter().map(|&b| scene.physics.bodies[b].translation());
+        soft.chain(rigid).flat_map(|x| x.to_array().map(f32::to_bits)).collect()
+    })
+}
+
+#[test]
+fn one_two_and_four_threads_move_bodies_of_every_kind_to_the_same_bits() {
+    let one = menagerie(1);
+    for threads in [2, 4] {
+        assert!(menagerie(threads) == one, "{threads} threads");
+    }
 }
 
 #[test]
