@@ -143,6 +143,19 @@ impl ProcDefBody {
         }
     }
 
+    /// Whether its last goals came from the global solve.
+    pub(super) fn is_solved(&self) -> bool {
+        matches!(self.settings.stiffness, Stiffness::Solve(_)) && self.factor.is_some()
+    }
+
+    /// Divides impulses, one a place, by the inertia of the global solve. False where there is none.
+    pub(super) fn solve_changes(&self, impulses: &mut [f32x4]) -> bool {
+        self.factor.as_ref().is_some_and(|(_, factor)| {
+            factor.solve(impulses);
+            true
+        })
+    }
+
     /// Changes the velocities as the body wants to move in a step of `h` seconds: pulls by equation (8), damping, volumes if they
     /// are kept. What moves the vertices by them is not done here: a world with contacts does it, see [`crate::world`].
     /// Without a time, as for `h = 0`, nothing is changed.

@@ -144,7 +144,7 @@ impl Stiffening {
 
 impl Factor {
     /// `L Lᵀ y = b`, in place, three right-hand sides at once.
-    fn solve(&self, b: &mut [f32x4]) {
+    pub fn solve(&self, b: &mut [f32x4]) {
         for column in 0..self.inverse.len() {
             let value = b[column] * f32x4::splat(self.inverse[column]);
             b[column] = value;

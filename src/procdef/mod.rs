@@ -35,6 +35,7 @@ mod rotation;
 mod rotation_wide;
 mod scalar_field;
 mod settings;
+mod spread;
 mod stimulus;
 mod stretch;
 mod trigger;

@@ -9,7 +9,7 @@ fn a_jellyfish_swims_its_length_in_three_strokes_and_stops_when_its_charts_stop(
     let jellyfish = model("jellyfish");
     let cycle = jellyfish.motion.cyclic().expect("a cycle").charts.cycle;
     let length = extents(&jellyfish.rig.mesh().positions).y;
-    let mut scene = Scene::new(9.81, 2);
+    let mut scene = Scene::new(9.81, 4);
     scene.ocean();
     let handle = scene.insert(&jellyfish, Vec3::ZERO);
     // One stroke from rest, to be under way.
@@ -17,6 +17,7 @@ fn a_jellyfish_swims_its_length_in_three_strokes_and_stops_when_its_charts_stop(
     let start = scene.centre(handle);
     scene.run(3.0 * cycle);
     let way = scene.centre(handle) - start;
+    println!("{way} of {length}");
     assert!(way.y >= length, "{way} of {length}");
     assert!(way.x.hypot(way.z) < 0.2 * way.y, "it swims ahead: {way}");
     // Water slows it by a quadratic law: what is left after some seconds is a small part of its pace.
@@ -71,7 +72,7 @@ fn a_worm_without_directed_friction_goes_nowhere_near_as_far() {
 
 #[test]
 fn a_jellyfish_swims_without_substeps_too() {
-    for stiffness in [0.3, 0.45, 0.6] {
+    for stiffness in [0.3, 0.5, 0.7, 0.9] {
         let mut jellyfish = (*model("jellyfish")).clone();
         jellyfish.settings.stiffness = Stiffness::Solve(stiffness);
         let jellyfish = std::sync::Arc::new(jellyfish);
@@ -83,8 +84,10 @@ fn a_jellyfish_swims_without_substeps_too() {
         let now = extents(scene.body(handle).positions()).max_element();
         let fastest = scene.body(handle).velocities().iter().map(|v| v.length()).fold(0.0, f32::max);
         println!("stiffness {stiffness}: {now} of {rest} m, {fastest} m/s, at {}", scene.centre(handle));
+        let volumes = jellyfish.rig.mesh().volumes_at(scene.body(handle).positions());
+        assert!(volumes.iter().all(|v| *v > 0.0), "{stiffness}: no cell is inside out");
         assert!(now < 1.3 * rest, "{stiffness}: it keeps its size, {now} of {rest}");
         assert!(fastest < 20.0 * rest, "{stiffness}: {fastest} m/s");
-        assert!(scene.centre(handle).y > 0.5 * rest, "{stiffness}: it swims, {}", scene.centre(handle));
+        assert!(scene.centre(handle).y > 0.4 * rest, "{stiffness}: it swims, {}", scene.centre(handle));
     }
 }

@@ -14,18 +14,21 @@ use super::{jellyfish as jelly, shell, snail as body, worm as worms};
 /// Rings contract, from the top to the rim and on into the tentacles (figure 1).
 pub fn jellyfish(name: &str) -> RigDescription {
     let mut rig = rig_of(name, true);
-    rig.stiffness = Some(0.5);
     // A crowd needs no strong strokes.
+    rig.stiffness = Some(0.5);
+    let (mut cycle, mut limit) = (1.6, 2.5);
     let mut primary = vec![[0.0, 1.0], [0.12, 0.45], [0.25, 0.5], [0.9, 1.0]];
     if name == "jellyfish" {
-        (primary[1][1], primary[2][1]) = (0.4, 0.45);
+        rig.stiffness = Some(0.6);
+        (cycle, limit) = (1.8, 3.0);
+        primary = vec![[0.0, 1.0], [0.11, 0.36], [0.22, 0.42], [0.9, 1.0]];
         // At each stroke the flat cells where the tentacles begin would bend through themselves.
         rig.least_volume = Some(0.05);
     }
     rig.colour = Some([0.55, 0.45, 0.75]);
     rig.charts = Some(ChartsDescription {
-        cycle: 1.6,
-        limit: Some(2.5),
+        cycle,
+        limit: Some(limit),
         volume: Some("both".into()),
         interpolation: Some("smooth".into()),
         speed: Some(1.6),
