@@ -82,8 +82,7 @@ impl<'a> Words<'a> {
     /// The next word as a count of things that are in the file.
     pub fn count(&mut self, what: &'static str) -> At<usize> {
         let word = self.word(what)?;
-        let count =
-            word.parse().or_else(|_| self.fault(TetrahedralFault::NotACount { what, word: shown(word) }))?;
+        let count = word.parse().or_else(|_| self.fault(TetrahedralFault::NotACount { what, word: shown(word) }))?;
         match usize::try_from(count) {
             // Each thing is a character and a space at least.
             Ok(n) if n <= self.text.len() / 2 => Ok(n),

@@ -179,9 +179,7 @@ fn cyclic(raw: &ChartsDescription, phases: bool) -> Result<CyclicMotion, MotionR
     match raw.speed {
         None if phases => Err(fault(chart_place(false, "speed"), Kind::NoSpeed)),
         // Without phases nothing is shifted, whatever the speed.
-        speed => {
-            Ok(CyclicMotion { charts, speed: speed.unwrap_or(1.0), rise: raw.rise.unwrap_or(0.0) })
-        }
+        speed => Ok(CyclicMotion { charts, speed: speed.unwrap_or(1.0), rise: raw.rise.unwrap_or(0.0) }),
     }
 }
 

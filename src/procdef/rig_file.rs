@@ -5,7 +5,7 @@ use super::rig_description::RigDescription;
 use super::rig_fault::{MotionRigFault, MotionRigFaultKind as Kind, MotionRigPlace as Place};
 use crate::files::{TomlError, TomlText};
 use crate::mesh::{
-    AtomicFile, TetrahedralError, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedral,
+    AtomicFile, FillReport, TetrahedralError, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedral,
 };
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -42,8 +42,10 @@ pub enum MotionRigError {
 pub struct MotionRigFile {
     /// What the file says.
     pub description: RigDescription,
-    /// Its cells.
+    /// Its cells. [`TetrahedralMesh::dihedral_angles`] tells the worst of them.
     pub mesh: TetrahedralMesh,
+    /// How well the cells fill the surface, where they were made for one.
+    pub fill: Option<FillReport>,
     /// The surface that is drawn, if the file names one.
     pub skin: Option<TriangleMesh>,
     /// Its fields and charts.
@@ -67,7 +69,7 @@ pub fn load_motion_rig(path: impl AsRef<Path>) -> Result<MotionRigFile, MotionRi
 }
 
 fn read(text: &TomlText, description: RigDescription) -> Result<MotionRigFile, MotionRigFault> {
-    let mesh = mesh(text, &description)?;
+    let (mesh, fill) = mesh(text, &description)?;
     let surface = |place, path: &PathBuf| load_obj(text.resolve(path)).map_err(|e| fault(place, e));
     let skin = description.skin.as_ref().map(|path| surface(Place::root("skin"), path)).transpose()?;
     let attachments = description.attachment.iter().enumerate();
@@ -75,15 +77,18 @@ fn read(text: &TomlText, description: RigDescription) -> Result<MotionRigFile, M
         .map(|(i, a)| a.mesh.as_ref().map(|path| surface(Place::entry("attachment", i, "mesh"), path)).transpose())
         .collect::<Result<_, _>>()?;
     let built = description.build(&mesh)?;
-    Ok(MotionRigFile { description, mesh, skin, built, attachments })
+    Ok(MotionRigFile { description, mesh, fill, skin, built, attachments })
 }
 
 /// The mesh that a rig names: cells from a file, or a closed surface that is filled with them.
-fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh, MotionRigFault> {
+fn mesh(
+    text: &TomlText,
+    description: &RigDescription,
+) -> Result<(TetrahedralMesh, Option<FillReport>), MotionRigFault> {
     let path = text.resolve(&description.mesh);
     let is_surface = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj"));
     match (is_surface, description.cell_size) {
-        (false, None) => load_tetrahedral(path).map_err(|e| fault(Place::root("mesh"), e)),
+        (false, None) => load_tetrahedral(path).map(|mesh| (mesh, None)).map_err(|e| fault(Place::root("mesh"), e)),
         (false, Some(_)) => Err(fault(Place::root("cell_size"), Kind::CellSize)),
         (true, None) => Err(fault(Place::root("mesh"), Kind::NoCellSize)),
         (true, Some(cell)) => {
@@ -91,7 +96,7 @@ fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh
             let surface = load_obj(path).map_err(|e| fault(Place::root("mesh"), e))?;
             let (mesh, report) = fill_surface(&surface, cell).map_err(|e| fault(Place::root("mesh"), e))?;
             if report.follows() {
-                return Ok(mesh);
+                return Ok((mesh, Some(report)));
             }
             let (distance, percent) = (report.hausdorff, 100.0 * report.relative);
             let error = TetrahedralError::NotFollowed { cell_size: cell, distance, percent };

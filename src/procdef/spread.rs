@@ -37,8 +37,7 @@ impl ProcDefBody {
         let spin = if spin.is_finite() { spin } else { DVec3::ZERO };
         for (&change, &v) in changes.iter().zip(&regions.vertex) {
             let r = self.positions()[v as usize].as_dvec3() - found.centre;
-            self.velocities_mut()[v as usize] =
-                before[v as usize] + vec3(change) + (shift + spin.cross(r)).as_vec3();
+            self.velocities_mut()[v as usize] = before[v as usize] + vec3(change) + (shift + spin.cross(r)).as_vec3();
         }
     }
 

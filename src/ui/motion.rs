@@ -137,3 +137,97 @@ fn edit(ui: &mut Ui, name: &str, of: &mut DeformationCharts, phase: Option<f32>)
     changed |= ui.add(Slider::new(&mut of.cycle, 0.2..=10.0).logarithmic(true).text("seconds a cycle")).changed();
     changed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coupling::procdef::ProcDefStart;
+    use crate::math::{Pose, Vec3};
+    use crate::mesh::TetrahedralMesh;
+    use crate::procdef::{CyclicMotion, MotionFields, OrientationField, ProcDefModel, ProcDefRigBuilder};
+    use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, Rect, vec2};
+    use rapier3d::pipeline::PhysicsWorld;
+    use std::sync::Arc;
+
+    /// A body of one cell whose cycle does nothing yet.
+    fn body() -> Arc<ProcDefModel> {
+        let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+        let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]]).unwrap();
+        let fields =
+            MotionFields { orientation: OrientationField::axes(4), amplitude: vec![1.0; 4], phase: vec![0.0; 4] };
+        let cyclic = CyclicMotion { charts: DeformationCharts::default(), speed: 1.0, rise: 0.25 };
+        let motion = MotionRig::new(&mesh, fields, Some(cyclic), None).unwrap();
+        Arc::new(ProcDefModel::new(Arc::new(ProcDefRigBuilder::new(mesh).build().unwrap()), Arc::new(motion)))
+    }
+
+    fn press(at: Pos2, pressed: bool) -> Event {
+        Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE }
+    }
+
+    /// Two bodies in a world, and a window with the panel of the first.
+    struct Window {
+        physics: PhysicsWorld,
+        world: ProcDefWorld,
+        handles: [ProcDefHandle; 2],
+        context: egui::Context,
+    }
+
+    impl Window {
+        fn new() -> Self {
+            let (mut physics, mut world) = (PhysicsWorld::new(), ProcDefWorld::new());
+            let kind = body();
+            let handles = [0.0, 5.0].map(|x| {
+                let start = ProcDefStart { pose: Pose::from_translation(Vec3::X * x), ..ProcDefStart::default() };
+                world.insert(kind.clone(), &start, &mut physics)
+            });
+            Self { physics, world, handles, context: egui::Context::default() }
+        }
+
+        /// One step of the bodies and one round of the window with an event.
+        fn round(&mut self, event: Event) {
+            self.world.advance(&mut self.physics, 1);
+            let screen = Rect::from_min_size(Pos2::ZERO, vec2(300.0, 900.0));
+            let input = RawInput { screen_rect: Some(screen), events: vec![event], ..RawInput::default() };
+            let (world, shown) = (&mut self.world, self.handles[0]);
+            let mut output = self.context.run_ui(input, |ui| motion(ui, world, &[shown]));
+            output.textures_delta.clear();
+        }
+
+        /// Drags upwards from a place.
+        fn drag_up(&mut self, at: Pos2) {
+            let to = at - vec2(0.0, 20.0);
+            for event in [Event::PointerMoved(at), press(at, true), Event::PointerMoved(to), press(to, false)] {
+                self.round(event);
+            }
+        }
+
+        /// The primary rate at the beginning of a body's cycle.
+        fn rate(&self, body: usize) -> f32 {
+            self.world.model(self.handles[body]).unwrap().motion.cyclic().unwrap().charts.at(0.0)[0]
+        }
+
+        /// The length of an edge of a body along x.
+        fn length(&self, body: usize) -> f32 {
+            let x = self.world.get(self.handles[body]).unwrap().positions();
+            x[0].distance(x[1])
+        }
+    }
+
+    #[test]
+    fn a_point_that_is_dragged_in_the_panel_changes_the_body_while_it_moves_and_no_other() {
+        // The chart's only point is at the left, somewhere below the sliders.
+        let found = (4..80).map(|k| Pos2::new(12.0, 8.0 * k as f32)).find_map(|at| {
+            let mut window = Window::new();
+            window.drag_up(at);
+            (window.rate(0) != 1.0).then_some(window)
+        });
+        let mut window = found.expect("the chart is in the panel");
+        assert!(window.rate(0) > 1.2 && window.rate(1) == 1.0, "{} {}", window.rate(0), window.rate(1));
+        let rise = window.world.model(window.handles[0]).unwrap().motion.cyclic().unwrap().rise;
+        assert_eq!(rise, 0.25, "what is not in the panel stays");
+        for _ in 0..60 {
+            window.world.advance(&mut window.physics, 1);
+        }
+        assert!(window.length(0) > window.length(1) + 0.05, "{} {}", window.length(0), window.length(1));
+    }
+}

@@ -4,8 +4,8 @@ use fastrand::Rng;
 use pliant::math::{Mat3, Quat, Vec3};
 use pliant::mesh::TetrahedralMesh;
 use pliant::procdef::{
-    ChartInterpolation, CyclicMotion, DeformationCharts, LineChart, MAX_STIMULI, Motion, MotionError, MotionFields, MotionRig,
-    OrientationField, StimulusSettings, VolumeMode, excitation_colour, stretch_along,
+    ChartInterpolation, CyclicMotion, DeformationCharts, LineChart, MAX_STIMULI, Motion, MotionError, MotionFields,
+    MotionRig, OrientationField, StimulusSettings, VolumeMode, excitation_colour, stretch_along,
 };
 
 use crate::meshes::bar;

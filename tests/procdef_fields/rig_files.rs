@@ -271,7 +271,10 @@ fn every_fault_is_told_with_its_line_and_key() {
             ),
             "rig.toml:5: layer 0: `section`",
         ),
-        (format!("{head}[water]\ndensity = -1.0\nnormal_drag = 1.0\ntangential_drag = 0.0\n"), "rig.toml:4: water: `density`"),
+        (
+            format!("{head}[water]\ndensity = -1.0\nnormal_drag = 1.0\ntangential_drag = 0.0\n"),
+            "rig.toml:4: water: `density`",
+        ),
         (
             format!("{head}[ground]\ndirection = [1.0, 0.0, 0.0]\nforward = 0.1\nbackward = -0.1\nsideways = 0.1\n"),
             "rig.toml:6: ground: `backward` must be",

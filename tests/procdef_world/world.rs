@@ -81,7 +81,10 @@ fn menagerie(threads: usize) -> Vec<u32> {
             })
             .to_vec();
         scene.run(1.0);
-        assert!(handles.iter().any(|&h| !scene.bodies.motion(h).expect("a motion").stimuli().is_empty()), "one is felt");
+        assert!(
+            handles.iter().any(|&h| !scene.bodies.motion(h).expect("a motion").stimuli().is_empty()),
+            "one is felt"
+        );
         let soft = handles.iter().flat_map(|&h| scene.body(h).positions().to_vec());
         let rigid = balls.iter().map(|&b| scene.physics.bodies[b].translation());
         soft.chain(rigid).flat_map(|x| x.to_array().map(f32::to_bits)).collect()

@@ -38,6 +38,10 @@ pub struct Summary {
 struct SoftSummary {
     bodies: usize,
     volume: Option<[f64; 2]>,
+    /// The worst dihedral angles of all cells at rest, in degrees.
+    angles: Option<[f64; 2]>,
+    /// The largest distance of cells from the surface that they fill, as a part of its size.
+    unfilled: Option<f32>,
     /// Most cells inside out at once.
     inverted: usize,
     frames_frozen: u64,
@@ -96,6 +100,11 @@ impl SoftSummary {
             let figures = simulation.soft_figures(actor);
             let [low, high] = self.volume.unwrap_or([f64::INFINITY, f64::NEG_INFINITY]);
             self.volume = Some([low.min(figures.volume_ratio), high.max(figures.volume_ratio)]);
+            let [least, most] = self.angles.unwrap_or([180.0, 0.0]);
+            self.angles = Some([least.min(actor.kind.angles[0]), most.max(actor.kind.angles[1])]);
+            if let Some(fill) = actor.kind.fill {
+                self.unfilled = Some(self.unfilled.unwrap_or(0.0).max(fill.relative));
+            }
             inverted += figures.inverted;
             frozen |= simulation.soft_report(actor).frozen.is_some();
             centre += figures.centre / self.bodies as f32;
@@ -117,6 +126,12 @@ impl SoftSummary {
              ({x:.2}, {y:.2}, {z:.2}) m",
             self.bodies, self.inverted
         )?;
+        if let Some([least, most]) = self.angles {
+            write!(f, "; cells at rest with angles of {least:.1} to {most:.1} degrees")?;
+        }
+        if let Some(distance) = self.unfilled {
+            write!(f, ", up to {:.2} % of the size from the surface that they fill", 100.0 * distance)?;
+        }
         if self.frames_frozen > 0 {
             write!(f, "; {} frames with a FROZEN one", self.frames_frozen)?;
         }

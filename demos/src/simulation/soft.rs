@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use pliant::coupling::procdef::{ProcDefStart, WaterRegion};
 use pliant::math::{Pose, Quat, Vec3};
-use pliant::mesh::TriangleMesh;
+use pliant::mesh::{FillReport, TriangleMesh};
 use pliant::procdef::{EmbeddedSkin, ProcDefModel, load_motion_rig};
 use pliant::world::{ProcDefHandle, ProcDefWorld};
 use rapier3d::dynamics::RigidBodyBuilder;
@@ -28,6 +28,10 @@ pub struct SoftKind {
     pub has_skin: bool,
     /// The layer of each vertex of the cells, if layers are painted.
     pub layers: Option<Vec<f32>>,
+    /// The least and the largest dihedral angle of the cells at rest, in degrees.
+    pub angles: [f64; 2],
+    /// How well the cells fill the rig's surface, where they were made for one.
+    pub fill: Option<FillReport>,
     /// Colour of the rig, linear.
     pub colour: Option<[f32; 3]>,
     /// The rigid things that come with the body, in the order of the model's attachments.
@@ -80,7 +84,9 @@ impl SoftKind {
             Some(AttachedThing { name: a.name.clone(), mesh, colour: a.colour })
         });
         let things = things.collect();
-        Ok(Self { model: Arc::new(model), skin, has_skin, layers, colour: file.description.colour, things })
+        let (angles, fill) = (file.mesh.dihedral_angles(), file.fill);
+        let colour = file.description.colour;
+        Ok(Self { model: Arc::new(model), skin, has_skin, layers, angles, fill, colour, things })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{finish, program, run};
+use crate::common::{finish, program, repository, run};
 use pliant::mesh::load_obj;
 use pliant_demos::output::{SOFT_METRICS_HEADER, read_pc2};
 
@@ -16,9 +16,17 @@ fn a_run_of_the_snail_writes_skin_shell_and_measurements() {
     let ran = run("snail", &out, &["--no-pictures", "--frames", &FRAMES.to_string()]);
     assert_eq!((ran.code, ran.complained.as_str()), (Some(0), ""));
     let last = ran.said.lines().last().unwrap();
-    for word in ["90 frames", "1 moving by themselves", "volume", "inside out", "way of all", "charts and matching"] {
+    for word in [
+        "90 frames",
+        "1 moving by themselves",
+        "volume",
+        "at most 0 cells inside out",
+        "way of all",
+        "charts and matching",
+    ] {
         assert!(last.contains(word), "{word}: {last}");
     }
+    assert!(last.contains("cells at rest with angles of 9.2 to 155.8 degrees"), "{last}");
     let vertices = load_obj(out.join("snail.obj")).unwrap().vertex_count();
     let frames = read_pc2(out.join("snail.pc2")).unwrap().frames;
     assert_eq!((frames.len(), frames[0].len()), (FRAMES, vertices));
@@ -61,6 +69,25 @@ fn one_two_and_four_threads_move_a_worm_to_the_same_bytes() {
     for threads in ["2", "4"] {
         assert!(results(folder.path(), threads) == one, "{threads} threads");
     }
+}
+
+#[test]
+fn how_well_cells_fill_a_surface_is_told_at_the_end_of_a_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(folder.path().join(name), text).unwrap();
+    let ball = repository().join("assets/meshes/ball.obj");
+    write("rig.toml", format!("mesh = {:?}\ncell_size = 0.15\ndensity = 1000.0\n", ball.display().to_string()));
+    write(
+        "scene.toml",
+        "name = \"filled\"\nduration = 1.0\ncamera = { eye = [0, 1, 5], target = [0, 0, 0] }\n[[soft_body]]\nname = \"ball\"\nrig = \"rig.toml\"\n"
+            .into(),
+    );
+    let scene = folder.path().join("scene.toml").display().to_string();
+    let ran = run(&scene, &folder.path().join("out"), &["--no-pictures", "--frames", "2"]);
+    assert_eq!((ran.code, ran.complained.as_str()), (Some(0), ""));
+    let last = ran.said.lines().last().unwrap();
+    let percent = last.split("degrees, up to ").nth(1).and_then(|rest| rest.split(' ').next()).expect(last);
+    assert!((0.01..=2.0).contains(&percent.parse::<f32>().expect(last)), "{last}");
 }
 
 #[test]
