@@ -279,7 +279,7 @@ fn a_file_that_may_not_be_read_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("secret.mesh");
     fs::write(&path, MEDIT).unwrap();
-    fs::set_permissions(&path, fs::Permissions::from_mode(0)).unwrap();
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o000)).unwrap();
     // Whoever runs as root may read it all the same.
     if let Err(error) = load_tetrahedral(&path) {
         assert!(error.to_string().contains("secret.mesh: cannot be read: "), "{error}");
