@@ -20,6 +20,7 @@ use nalgebra_sparse::factorization::CscCholesky;
 use nalgebra_sparse::{CooMatrix, CscMatrix};
 use wide::f32x4;
 
+use super::factor::BlockFactor;
 use super::regions::Regions;
 use crate::mesh::TetrahedralMesh;
 
@@ -41,12 +42,7 @@ pub(super) struct Stiffening {
 pub(super) struct Factor {
     /// `(h c)²` in square metres.
     scale: f32,
-    /// Where the entries below the diagonal of each column start.
-    starts: Vec<u32>,
-    rows: Vec<u32>,
-    values: Vec<f32>,
-    /// One over each element of the diagonal.
-    inverse: Vec<f32>,
+    matrix: BlockFactor,
 }
 
 impl Stiffening {
@@ -107,17 +103,14 @@ impl Stiffening {
         }
         let factor = CscCholesky::factor(&CscMatrix::from(&triplets)).ok()?.take_l();
         let (offsets, rows, values) = factor.csc_data();
-        let mut out =
-            Factor { scale: scale as f32, starts: vec![0], rows: Vec::new(), values: Vec::new(), inverse: Vec::new() };
-        for column in 0..n {
+        let column = |c: usize| {
             // The diagonal comes first in each column.
-            let diagonal = offsets[column];
-            out.inverse.push((1.0 / values[diagonal]) as f32);
-            out.rows.extend(rows[diagonal + 1..offsets[column + 1]].iter().map(|&r| r as u32));
-            out.values.extend(values[diagonal + 1..offsets[column + 1]].iter().map(|&v| v as f32));
-            out.starts.push(out.rows.len() as u32);
-        }
-        (out.inverse.iter().chain(&out.values).all(|v| v.is_finite())).then_some(out)
+            let below = offsets[c] + 1..offsets[c + 1];
+            let entries = below.clone().map(|at| (rows[at] as u32, values[at])).collect();
+            (values[offsets[c]], entries)
+        };
+        let columns: Vec<(f64, Vec<(u32, f64)>)> = (0..n).map(column).collect();
+        BlockFactor::new(&columns).map(|matrix| Factor { scale: scale as f32, matrix })
     }
 
     /// The ways from the shape `x` to the goals, for the maps of its regions.
@@ -143,24 +136,9 @@ impl Stiffening {
 }
 
 impl Factor {
-    /// `L Lᵀ y = b`, in place, three right-hand sides at once.
+    /// Divides by the matrix, in place, three right-hand sides at once.
     pub fn solve(&self, b: &mut [f32x4]) {
-        for column in 0..self.inverse.len() {
-            let value = b[column] * f32x4::splat(self.inverse[column]);
-            b[column] = value;
-            let range = self.starts[column] as usize..self.starts[column + 1] as usize;
-            for (&row, &l) in self.rows[range.clone()].iter().zip(&self.values[range]) {
-                b[row as usize] -= value * f32x4::splat(l);
-            }
-        }
-        for column in (0..self.inverse.len()).rev() {
-            let range = self.starts[column] as usize..self.starts[column + 1] as usize;
-            let mut value = b[column];
-            for (&row, &l) in self.rows[range.clone()].iter().zip(&self.values[range]) {
-                value -= b[row as usize] * f32x4::splat(l);
-            }
-            b[column] = value * f32x4::splat(self.inverse[column]);
-        }
+        self.matrix.solve(b);
     }
 }
 

@@ -9,6 +9,7 @@ mod chart_table;
 mod charts;
 mod embedded_skin;
 mod excitation;
+mod factor;
 mod geodesic;
 mod global_solve;
 mod line_chart;
