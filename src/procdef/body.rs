@@ -144,7 +144,7 @@ impl ProcDefBody {
     }
 
     /// Whether its last goals came from the global solve.
-    pub(super) fn is_solved(&self) -> bool {
+    pub(crate) fn is_solved(&self) -> bool {
         matches!(self.settings.stiffness, Stiffness::Solve(_)) && self.factor.is_some()
     }
 

@@ -34,7 +34,7 @@ pub fn act_of_water(model: &ProcDefModel, regions: &[WaterRegion], gravity: Vec3
     let Some(water) = &model.water else { return };
     let region = |x: Vec3| regions.iter().find(|region| region.contains(x));
     let masses = model.rig.masses();
-    let before = body.velocities().to_vec();
+    let before = body.is_solved().then(|| body.velocities().to_vec());
     for (v, (volume, mass)) in model.volumes.iter().zip(masses).enumerate() {
         if region(body.positions()[v]).is_some() {
             body.velocities_mut()[v] -= gravity * (h * water.density * volume / mass);
@@ -52,7 +52,9 @@ pub fn act_of_water(model: &ProcDefModel, regions: &[WaterRegion], gravity: Vec3
             body.velocities_mut()[v] += change;
         }
     }
-    body.spread_changes(&before);
+    if let Some(before) = before {
+        body.spread_changes(&before);
+    }
 }
 
 /// The change of the velocity `u` relative to the water of a piece of surface, `exposure` its area times the time step over its mass.
