@@ -133,3 +133,21 @@ fn water_drives_no_swing_of_a_body_of_any_stiffness() {
         }
     }
 }
+
+#[test]
+fn rounding_does_not_push_a_body_at_rest() {
+    for name in ["jellyfish", "bowel"] {
+        let rig = rig(name);
+        for stiffness in [Stiffness::Iterations(1), Stiffness::Iterations(2), Stiffness::Solve(0.5)] {
+            let mut body = ProcDefBody::new(rig.clone(), &Pose::IDENTITY);
+            (body.settings.stiffness, body.settings.damping) = (stiffness, 0.0);
+            for _ in 0..960 {
+                body.step(&[], 1.0 / 480.0, Vec3::ZERO, None);
+            }
+            let momenta = body.velocities().iter().zip(rig.masses()).map(|(v, &m)| v.as_dvec3() * f64::from(m));
+            let mass: f64 = rig.masses().iter().map(|&m| f64::from(m)).sum();
+            let speed = momenta.sum::<DVec3>().length() / mass;
+            assert!(speed < 1e-5, "{name}, {stiffness:?}: {speed} m/s");
+        }
+    }
+}

@@ -80,7 +80,7 @@ fn every_fault_is_told_with_its_line() {
         ("Vertices\n2\n0 0 0 0\n".to_owned(), ":5: the file ends where a coordinate was expected"),
         (vertices.to_owned(), ":8: the file ends without tetrahedra"),
         (format!("{vertices}Tetrahedra\n1\n1 2 3 5 0\n"), ":11: cell 1 uses vertex 5"),
-        (format!("{vertices}Tetrahedra\n2\n1 2 3 4 0\n1 2 3 3 0\n"), ":12: cell 2 has no volume"),
+        (format!("{vertices}Tetrahedra\n2\n1 2 3 4 0\n1 2 3 3 0\n"), ":12: cell 2 uses vertex 3 twice"),
         (
             "Vertices\n6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 2 0\n0 0 3 0\nTetrahedra\n3\n1 2 3 4 0\n1 2 3 5 0\n1 2 3 6 0\n"
                 .to_owned(),
