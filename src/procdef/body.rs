@@ -8,7 +8,7 @@ use wide::f32x4;
 use super::global_solve::Factor;
 use super::matching::Matching;
 use super::open_cells::Ahead;
-use super::rigid::{damp, keep_momentum, vec3, wide};
+use super::rigid::{damp, keep_linear_momentum, keep_momentum, vec3, wide};
 use super::settings::wave_distance;
 use super::{GroundPlane, ProcDefRig, ProcDefSettings, Stiffness};
 use crate::math::{Pose, Vec3};
@@ -105,7 +105,9 @@ impl ProcDefBody {
                 false
             }
         };
-        if !exact {
+        if exact {
+            keep_linear_momentum(&regions.mass, &mut self.matching.goals);
+        } else {
             keep_momentum(&regions.mass, &self.shape, &mut self.matching.goals);
         }
         for (&d, &v) in self.matching.goals.iter().zip(&regions.vertex) {

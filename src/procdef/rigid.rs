@@ -51,6 +51,17 @@ pub(super) fn keep_momentum(mass: &[f32], x: &[f32x4], d: &mut [f32x4]) {
     }
 }
 
+/// Shifts the differences `d = g - x` so that `Σ m d = 0` to the rounding of a sum.
+///
+/// One pass of matching keeps the momentum, but rounds the goals of each vertex: thousands of steps would add that up.
+pub(super) fn keep_linear_momentum(mass: &[f32], d: &mut [f32x4]) {
+    let (_, mean) = centre(mass, d);
+    let shift = wide(mean.as_vec3());
+    if vec3(shift).is_finite() {
+        d.iter_mut().for_each(|d| *d -= shift);
+    }
+}
+
 /// The sums over all vertices that [`keep_momentum`] needs, with `r = x - c`.
 struct Sums {
     /// `Σ m d`

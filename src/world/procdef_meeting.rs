@@ -23,7 +23,7 @@ impl ProcDefWorld {
         if !(rapier.dt > 0.0 && rapier.dt.is_finite()) || kinds.into_iter().all(|kind| kind == ContactKind::Surfaces) {
             return Vec::new();
         }
-        self.parts.retain(|handle| rapier.colliders.get(handle).is_some());
+        self.meetings.parts.retain(|handle| rapier.colliders.get(handle).is_some());
         let attached: Vec<Vec<RigidBodyHandle>> = self
             .entries
             .iter()
@@ -36,7 +36,7 @@ impl ProcDefWorld {
             .collect();
         let mut members = Vec::new();
         let mut bodies = Vec::new();
-        for (place, ((_, entry), visit)) in self.entries.iter_mut().zip(visits.iter()).enumerate() {
+        for (place, ((index, entry), visit)) in self.entries.iter_mut().zip(visits.iter()).enumerate() {
             // What is not finite must not reach the others.
             if visit.report.frozen.is_some() || !entry.body.velocities().iter().all(|v| v.is_finite()) {
                 continue;
@@ -45,6 +45,7 @@ impl ProcDefWorld {
             let friction = entry.model.ground.map_or(entry.model.friction, |g| g.least());
             members.push(place);
             bodies.push(MeetingBody {
+                name: index.into_raw_parts(),
                 body: &mut entry.body,
                 surface: &entry.surface,
                 groups: entry.groups,
@@ -63,7 +64,7 @@ impl ProcDefWorld {
             QueryFilter::default(),
         );
         let sets = (&*rapier.bodies, rapier.colliders);
-        let (meetings, rigid) = meet(&mut bodies, &step, query, sets, &mut self.parts, &mut refused);
+        let (meetings, rigid) = meet(&mut bodies, &step, query, sets, &mut self.meetings, &mut refused);
         rigid.iter().for_each(|copy| copy.write(rapier.bodies));
         let mut meetings = members.into_iter().zip(meetings).peekable();
         for (place, ((_, entry), visit)) in self.entries.iter_mut().zip(visits).enumerate() {

@@ -9,9 +9,8 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use super::procdef_report::ProcDefStepReport;
 use super::procdef_view::ProcDefView;
-use crate::coupling::PartCache;
 use crate::coupling::procdef::{
-    ContactSurface, Grip, GroundDirections, Meeting, ProcDefSets, ProcDefStart, WaterRegion, attach_to,
+    ContactSurface, Grip, GroundDirections, Meeting, MeetingMemory, ProcDefSets, ProcDefStart, WaterRegion, attach_to,
     spawn_attachment, spawn_soft_body,
 };
 use crate::math::{Mat3, Vec3};
@@ -85,8 +84,8 @@ pub struct ProcDefWorld {
     pub water: Vec<WaterRegion>,
     pub(super) entries: Arena<ProcDefEntry>,
     pub(super) report: ProcDefStepReport,
-    /// The convex parts of colliders that vertices met.
-    pub(super) parts: PartCache,
+    /// What vertices met.
+    pub(super) meetings: MeetingMemory,
 }
 
 impl ProcDefWorld {

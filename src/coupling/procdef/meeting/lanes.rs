@@ -1,0 +1,84 @@
+//! Eight things at once: vectors of lanes, and boxes around packs of eight.
+
+use wide::f32x8;
+
+use crate::math::Vec3;
+
+/// Things of a pack, and packs of a group.
+pub const LANES: usize = 8;
+
+/// Boxes around packs, eight packs together: lowest and highest corners.
+#[derive(Clone, Debug, Default)]
+pub struct Boxes {
+    groups: Vec<[[f32x8; 3]; 2]>,
+}
+
+/// No pack: far from everything.
+const NO_BOXES: [[[f32; LANES]; 3]; 2] = [[[f32::MAX; LANES]; 3]; 2];
+
+impl Boxes {
+    /// The boxes around triangles or edges, in packs of eight; their number is a multiple of eight.
+    pub fn place<const N: usize>(&mut self, things: &[[u32; N]], positions: &[Vec3]) {
+        self.groups.clear();
+        let mut bounds = NO_BOXES;
+        for (number, pack) in things.chunks_exact(LANES).enumerate() {
+            let lane = number % LANES;
+            let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
+            for &v in pack.iter().flatten() {
+                (low, high) = (low.min(positions[v as usize]), high.max(positions[v as usize]));
+            }
+            for axis in 0..3 {
+                bounds[0][axis][lane] = low[axis];
+                bounds[1][axis][lane] = high[axis];
+            }
+            if lane + 1 == LANES || (number + 1) * LANES == things.len() {
+                self.groups.push(std::mem::replace(&mut bounds, NO_BOXES).map(|corner| corner.map(f32x8::new)));
+            }
+        }
+    }
+
+    /// Visits the packs in order whose boxes are within a squared distance of the box between `low` and `high`; the visitor
+    /// returns the squared distance from then on.
+    #[inline]
+    pub fn near(&self, low: Vec3, high: Vec3, mut limit: f32, mut visit: impl FnMut(usize) -> f32) {
+        let (low, high) = (splat(low), splat(high));
+        for (group, bounds) in self.groups.iter().enumerate() {
+            let mut squared = f32x8::ZERO;
+            for axis in 0..3 {
+                let beyond = (bounds[0][axis] - high[axis]).fast_max(low[axis] - bounds[1][axis]);
+                let beyond = beyond.fast_max(f32x8::ZERO);
+                squared += beyond * beyond;
+            }
+            let mut near = squared.simd_le(f32x8::splat(limit)).to_bitmask();
+            while near != 0 {
+                let lane = near.trailing_zeros() as usize;
+                near &= near - 1;
+                limit = visit(group * LANES + lane);
+            }
+        }
+    }
+}
+
+/// The same vector in all lanes.
+#[inline]
+pub fn splat(x: Vec3) -> [f32x8; 3] {
+    x.to_array().map(f32x8::splat)
+}
+
+/// The vector of one lane.
+#[inline]
+pub fn vector(v: [f32x8; 3], lane: usize) -> Vec3 {
+    Vec3::from(v.map(|x| x.to_array()[lane]))
+}
+
+/// `a - b`.
+#[inline]
+pub fn minus(a: [f32x8; 3], b: [f32x8; 3]) -> [f32x8; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// The inner product.
+#[inline]
+pub fn dot(a: [f32x8; 3], b: [f32x8; 3]) -> f32x8 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

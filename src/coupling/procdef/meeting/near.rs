@@ -1,0 +1,154 @@
+//! What of two bodies that are apart may come together in the coming step: vertices and triangles, edges and edges.
+//!
+//! Nothing else can meet: two triangles that come to cross begin with a vertex in a triangle or with two crossing edges.
+
+use super::MeetingBody;
+use super::detect::Sight;
+use super::edges::PlacedEdges;
+use super::encounters::Placed;
+use super::frames::Reach;
+use super::triangles::PlacedTriangles;
+use crate::math::Vec3;
+
+/// Nearer than this part of an edge there is no direction from one to the other.
+const TOUCHING: f32 = 1e-6;
+
+/// A vertex holds several triangles of another body where it lies in a fold: their ways out differ by more than this cosine.
+const OTHER_WAY: f32 = 0.7;
+
+/// A vertex near a triangle, or an edge near an edge.
+#[derive(Clone, Copy, Debug)]
+pub struct Near {
+    /// The vertices, counted through all bodies: the vertex and three corners, or the ends of the edges.
+    pub vertices: [u32; 4],
+    /// How many of them are of the first body: one or two.
+    pub first: usize,
+    /// The nearest point of the first body minus that of the second is the sum of the vertices with these weights.
+    pub weights: [f32; 4],
+    /// Unit way from the second to the first.
+    pub normal: Vec3,
+    /// How far the nearest points are apart, in metres.
+    pub distance: f32,
+    /// How far each vertex is behind the nearest point of its side, along the normal, in metres.
+    pub behind: [f32; 4],
+    /// Whether a contact holds it: else it is only watched.
+    pub presses: bool,
+}
+
+/// One of two bodies.
+pub struct Side<'a> {
+    /// The body.
+    pub body: &'a MeetingBody<'a>,
+    /// As the others see it.
+    pub sight: &'a Sight,
+    /// Its surface now.
+    pub placed: &'a Placed,
+    /// How far its vertices may go in the step.
+    pub reach: &'a Reach,
+    /// Its first vertex among those of all bodies.
+    pub offset: u32,
+}
+
+/// All that is near of two bodies.
+pub fn near_of(a: &Side<'_>, b: &Side<'_>) -> Vec<Near> {
+    let mut found = Vec::new();
+    vertices_near_triangles(a, b, &b.placed.triangles, &mut found);
+    vertices_near_triangles(b, a, &a.placed.triangles, &mut found);
+    edges_near_edges(a, b, &b.placed.edges, &mut found);
+    found
+}
+
+fn vertices_near_triangles(a: &Side<'_>, b: &Side<'_>, triangles: &PlacedTriangles, found: &mut Vec<Near>) {
+    let (x, y) = (a.body.body.positions(), b.body.body.positions());
+    let skins = a.sight.skin + b.sight.skin;
+    let bounds = &b.sight.bounds;
+    for &v in &a.body.surface.vertices {
+        let at = x[v as usize];
+        let moves = a.reach.moves[v as usize] + b.reach.farthest;
+        let reach = a.reach.spare + b.reach.spare + moves;
+        if !(at.cmpge(bounds.mins - reach).all() && at.cmple(bounds.maxs + reach).all()) {
+            continue;
+        }
+        let from = found.len();
+        triangles.within(at, reach, |near| {
+            let distance = near.way.length();
+            if distance <= TOUCHING * b.body.surface.edge {
+                return;
+            }
+            let normal = near.way / distance;
+            let corners = b.body.surface.triangles[near.triangle];
+            let point = at - near.way;
+            let [p, q, r] = corners.map(|c| normal.dot(point - y[c as usize]).max(0.0));
+            let [wp, wq, wr] = near.weights;
+            found.push(Near {
+                vertices: [v + a.offset, corners[0] + b.offset, corners[1] + b.offset, corners[2] + b.offset],
+                first: 1,
+                weights: [1.0, -wp, -wq, -wr],
+                normal,
+                distance,
+                behind: [0.0, p, q, r],
+                presses: distance - skins <= moves,
+            });
+        });
+        // Of triangles in the same direction the nearest presses.
+        let own = &mut found[from..];
+        own.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.vertices.cmp(&b.vertices)));
+        for k in 1..own.len() {
+            let (before, rest) = own.split_at_mut(k);
+            let same = |other: &Near| other.presses && other.normal.dot(rest[0].normal) > OTHER_WAY;
+            rest[0].presses &= !before.iter().any(same);
+        }
+    }
+}
+
+fn edges_near_edges(a: &Side<'_>, b: &Side<'_>, edges: &PlacedEdges, found: &mut Vec<Near>) {
+    let (x, y) = (a.body.body.positions(), b.body.body.positions());
+    let skins = a.sight.skin + b.sight.skin;
+    let bounds = &b.sight.bounds;
+    for &[v, w] in &a.body.surface.edges[..a.body.surface.edge_count] {
+        let (p, q) = (x[v as usize], x[w as usize]);
+        let moves = a.reach.moves[v as usize].max(a.reach.moves[w as usize]) + b.reach.farthest;
+        let reach = a.reach.spare + b.reach.spare + moves;
+        if !(p.max(q).cmpge(bounds.mins - reach).all() && p.min(q).cmple(bounds.maxs + reach).all()) {
+            continue;
+        }
+        edges.within(p, q, reach, |near| {
+            let distance = near.way.length();
+            if distance <= TOUCHING * b.body.surface.edge {
+                return;
+            }
+            let normal = near.way / distance;
+            let [e, f] = b.body.surface.edges[near.edge];
+            let [s, t] = near.at;
+            let (own, other) = (p + (q - p) * s, y[e as usize] + (y[f as usize] - y[e as usize]) * t);
+            let own = [p, q].map(|x| normal.dot(x - own).max(0.0));
+            let other = [e, f].map(|c| normal.dot(other - y[c as usize]).max(0.0));
+            // At an end a vertex is nearer to one of the triangles beside the edge, or as near.
+            let crossed = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
+            found.push(Near {
+                vertices: [v + a.offset, w + a.offset, e + b.offset, f + b.offset],
+                first: 2,
+                weights: [1.0 - s, s, t - 1.0, -t],
+                normal,
+                distance,
+                behind: [own[0], own[1], other[0], other[1]],
+                presses: crossed && distance - skins <= moves,
+            });
+        });
+    }
+}
+
+impl Near {
+    /// How far each side comes towards the other beyond its nearest point, along the normal, if the vertices go these ways.
+    #[inline]
+    pub fn approaches(&self, ways: &[Vec3]) -> [f32; 2] {
+        let mut most = [f32::NEG_INFINITY; 2];
+        for (k, (&v, behind)) in self.vertices.iter().zip(self.behind).enumerate() {
+            let second = k >= self.first;
+            let along = ways[v as usize].dot(self.normal);
+            let ahead = if second { along } else { -along } - behind;
+            most[usize::from(second)] = most[usize::from(second)].max(ahead);
+        }
+        most
+    }
+}
