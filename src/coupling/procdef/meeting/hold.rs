@@ -1,12 +1,14 @@
 //! Bodies that are apart stay apart, whatever the contacts left undone.
 //!
 //! Two things that are near each other are parted by a plane across the way between their nearest points. If no vertex of
-//! either side crosses a plane between them that goes along, they cannot meet: ways that would are shortened, for each side in
-//! proportion to how far it comes (*divide and truncate*; Chen et al., *Offset Geometric Contact*, 2025, bound the ways by
-//! spheres in place of planes). Vertices move along straight lines in a step, so that nothing happens between its ends.
+//! either side crosses a plane between them that goes along, they cannot meet. Each side gets of the distance in proportion to
+//! how far it comes. Vertices move along straight lines in a step, so that nothing happens between its ends. A way that goes
+//! too far is first turned along the plane, which lets it part from others but may lead it across another plane; what is left
+//! after some rounds of that is shortened, which is safe for all planes at once. (Chen et al., *Offset Geometric Contact*, 2025,
+//! shorten ways by spheres in place of planes.)
 //!
-//! Ways are those beside the common motion of all bodies that may meet. What shortening takes of their momentum is given back
-//! to all of them, unless something rigid holds them.
+//! Ways are those beside the common motion of all bodies that may meet. What this takes of their momentum is given back to all of
+//! them, unless something rigid holds them.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -17,8 +19,10 @@ use crate::math::Vec3;
 /// The part of a distance that is never used up in one step.
 const KEPT: f32 = 0.1;
 
-/// How often ways are shortened that take account of the other side's going away; then nothing counts on that any more.
-const ROUNDS: usize = 8;
+/// How often ways are turned along planes.
+const TURNS: usize = 12;
+/// How often ways are shortened with regard to the other side's going away; then nothing counts on that any more.
+const SHORTENINGS: usize = 6;
 
 /// Near things that are looked at by one thread at a time.
 const CHUNK: usize = 2048;
@@ -37,39 +41,46 @@ pub struct Ways<'a> {
     pub h: f32,
 }
 
-/// Shortens the ways of vertices so that nothing that is near crosses. The vertices that were held back,
-/// ascending.
+/// Changes the ways of vertices so that nothing that is near crosses. The vertices that were held back, ascending.
 pub fn hold_apart(near: &[Near], ways: &mut Ways<'_>) -> Vec<u32> {
     let h = ways.h;
     let along = ways.velocities.iter().zip(ways.frames);
     let mut to: Vec<Vec3> = along.map(|(v, &frame)| (*v - ways.common[frame as usize].0) * h).collect();
-    let mut left: Vec<f32> = Vec::new();
-    for round in 0..=ROUNDS {
-        let signed = round < ROUNDS;
-        let crossing: Vec<&Near> = near
-            .par_chunks(CHUNK)
-            .flat_map_iter(|chunk| chunk.iter().filter(|near| near.is_crossed(&to, signed)))
-            .collect();
+    let crosses = |near: &&Near| near.is_crossed(&to, true);
+    let mut crossing: Vec<&Near> = near.par_chunks(CHUNK).flat_map_iter(|chunk| chunk.iter().filter(crosses)).collect();
+    if crossing.is_empty() {
+        return Vec::new();
+    }
+    let mut changed = vec![false; to.len()];
+    for round in 0..=TURNS + SHORTENINGS {
+        let signed = round < TURNS + SHORTENINGS;
+        for near in crossing {
+            near.vertices.iter().for_each(|&v| changed[v as usize] = true);
+            if round < TURNS {
+                near.turn(&mut to);
+            } else {
+                near.shorten(&mut to, signed);
+            }
+        }
+        // In the last round all is looked at again: it counts on less.
+        let next = round + 1 < TURNS + SHORTENINGS;
+        let concerned = |near: &&Near| near.vertices.iter().any(|&v| changed[v as usize]);
+        crossing = near.iter().filter(|near| concerned(near) && near.is_crossed(&to, next)).collect();
         if crossing.is_empty() {
             break;
         }
-        left.resize(to.len(), 1.0);
-        crossing.into_iter().for_each(|near| near.shorten(&mut to, &mut left, signed));
-    }
-    if left.is_empty() {
-        return Vec::new();
     }
     let mut lost = vec![(DVec3::ZERO, 0.0f64); ways.common.len()];
     let mut held = Vec::new();
-    for (k, &left) in left.iter().enumerate() {
+    for (k, &changed) in changed.iter().enumerate() {
         let frame = ways.frames[k] as usize;
         let mass = 1.0 / f64::from(ways.inverse_masses[k]);
         lost[frame].1 += mass;
-        if left < 1.0 {
+        let velocity = ways.common[frame].0 + to[k] / h;
+        if changed && velocity != ways.velocities[k] {
             held.push(k as u32);
-            let shortened = ways.common[frame].0 + to[k] / h;
-            lost[frame].0 += (ways.velocities[k] - shortened).as_dvec3() * mass;
-            ways.velocities[k] = shortened;
+            lost[frame].0 += (ways.velocities[k] - velocity).as_dvec3() * mass;
+            ways.velocities[k] = velocity;
         }
     }
     let back: Vec<Vec3> = lost
@@ -94,29 +105,47 @@ impl Near {
         a + b > (1.0 - KEPT) * self.distance
     }
 
-    /// Shortens the ways of its vertices until its sides do not come too near.
-    fn shorten(&self, ways: &mut [Vec3], left: &mut [f32], signed: bool) {
+    /// How far each side may come, for ways that lead too near; nothing for those that do not.
+    fn limits(&self, ways: &[Vec3], signed: bool) -> Option<[f32; 2]> {
         let [a, b] = self.comes(ways, signed);
         let all = (1.0 - KEPT) * self.distance;
-        if a + b <= all {
-            return;
-        }
         // A side that goes away gives the other its way.
         let limits = match (a > 0.0, b > 0.0) {
             (true, true) => [all * a / (a + b), all * b / (a + b)],
             (true, false) => [all - b, 0.0],
             (false, true) => [0.0, all - a],
-            (false, false) => return,
+            (false, false) => return None,
         };
-        for (k, (&v, behind)) in self.vertices.iter().zip(self.behind).enumerate() {
+        (a + b > all).then_some(limits.map(|limit| limit * (1.0 - ROUNDING)))
+    }
+
+    /// How far each vertex comes, and how far it may.
+    fn excesses(&self, ways: &[Vec3], limits: [f32; 2]) -> [(usize, f32, f32); 4] {
+        std::array::from_fn(|k| {
+            let v = self.vertices[k] as usize;
             let second = k >= self.first;
-            let along = ways[v as usize].dot(self.normal);
-            let comes = if second { along } else { -along };
-            let most = limits[usize::from(second)] * (1.0 - ROUNDING) + behind;
+            let along = ways[v].dot(self.normal);
+            (v, if second { along } else { -along }, limits[usize::from(second)] + self.behind[k])
+        })
+    }
+
+    /// Turns the ways of its vertices along the plane between its sides where they lead too near.
+    fn turn(&self, ways: &mut [Vec3]) {
+        let Some(limits) = self.limits(ways, true) else { return };
+        for (k, (v, comes, most)) in self.excesses(ways, limits).into_iter().enumerate() {
+            if comes > most {
+                let back = self.normal * (comes - most);
+                ways[v] += if k >= self.first { -back } else { back };
+            }
+        }
+    }
+
+    /// Shortens the ways of its vertices where they lead too near.
+    fn shorten(&self, ways: &mut [Vec3], signed: bool) {
+        let Some(limits) = self.limits(ways, signed) else { return };
+        for (v, comes, most) in self.excesses(ways, limits) {
             if comes > most && comes > 0.0 {
-                let part = (most / comes).max(0.0);
-                ways[v as usize] *= part;
-                left[v as usize] *= part;
+                ways[v] *= (most / comes).max(0.0);
             }
         }
     }

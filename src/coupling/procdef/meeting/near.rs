@@ -29,7 +29,7 @@ pub struct Near {
     pub normal: Vec3,
     /// How far the nearest points are apart, in metres.
     pub distance: f32,
-    /// How far each vertex is behind the nearest point of its side, along the normal, in metres.
+    /// How far each vertex is behind the nearest point of its side, along the normal, in metres; below 0 by rounding alone.
     pub behind: [f32; 4],
     /// Whether a contact holds it: else it is only watched.
     pub presses: bool,
@@ -75,10 +75,11 @@ fn vertices_near_triangles(a: &Side<'_>, b: &Side<'_>, triangles: &PlacedTriangl
             if distance <= TOUCHING * b.body.surface.edge {
                 return;
             }
-            let normal = near.way / distance;
             let corners = b.body.surface.triangles[near.triangle];
+            let inside = near.weights.iter().all(|w| *w > 0.0);
+            let normal = direction(near.way, distance, if inside { near.normal } else { Vec3::ZERO });
             let point = at - near.way;
-            let [p, q, r] = corners.map(|c| normal.dot(point - y[c as usize]).max(0.0));
+            let [p, q, r] = corners.map(|c| normal.dot(point - y[c as usize]));
             let [wp, wq, wr] = near.weights;
             found.push(Near {
                 vertices: [v + a.offset, corners[0] + b.offset, corners[1] + b.offset, corners[2] + b.offset],
@@ -117,14 +118,15 @@ fn edges_near_edges(a: &Side<'_>, b: &Side<'_>, edges: &PlacedEdges, found: &mut
             if distance <= TOUCHING * b.body.surface.edge {
                 return;
             }
-            let normal = near.way / distance;
             let [e, f] = b.body.surface.edges[near.edge];
             let [s, t] = near.at;
-            let (own, other) = (p + (q - p) * s, y[e as usize] + (y[f as usize] - y[e as usize]) * t);
-            let own = [p, q].map(|x| normal.dot(x - own).max(0.0));
-            let other = [e, f].map(|c| normal.dot(other - y[c as usize]).max(0.0));
             // At an end a vertex is nearer to one of the triangles beside the edge, or as near.
             let crossed = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
+            let across = if crossed { (q - p).cross(y[f as usize] - y[e as usize]) } else { Vec3::ZERO };
+            let normal = direction(near.way, distance, across.normalize_or_zero());
+            let (own, other) = (p + (q - p) * s, y[e as usize] + (y[f as usize] - y[e as usize]) * t);
+            let own = [p, q].map(|x| normal.dot(x - own));
+            let other = [e, f].map(|c| normal.dot(other - y[c as usize]));
             found.push(Near {
                 vertices: [v + a.offset, w + a.offset, e + b.offset, f + b.offset],
                 first: 2,
@@ -136,6 +138,13 @@ fn edges_near_edges(a: &Side<'_>, b: &Side<'_>, edges: &PlacedEdges, found: &mut
             });
         });
     }
+}
+
+/// The unit way between nearest points; along `exact`, if that is a direction: what is at right angles to both does not lose its
+/// digits where they nearly touch.
+fn direction(way: Vec3, distance: f32, exact: Vec3) -> Vec3 {
+    let way = way / distance;
+    if way.dot(exact).abs() > 0.5 { exact * way.dot(exact).signum() } else { way }
 }
 
 impl Near {
