@@ -70,6 +70,7 @@ impl ProcDefWorld {
         for (place, ((_, entry), visit)) in self.entries.iter_mut().zip(visits).enumerate() {
             entry.meeting = meetings.next_if(|(member, _)| *member == place).map(|(_, m)| m).unwrap_or_default();
             visit.report.deepest = entry.meeting.deepest;
+            visit.report.held = entry.meeting.held;
         }
         refused.into_values().collect()
     }

@@ -123,12 +123,13 @@ impl Files {
 
     /// Appends the bodies that move by themselves.
     fn write_soft(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<()> {
-        for (actor, cache) in simulation.soft_actors.iter().zip(&mut self.soft_caches) {
+        let crossings = simulation.soft_crossings();
+        for ((actor, cache), crossings) in simulation.soft_actors.iter().zip(&mut self.soft_caches).zip(crossings) {
             let Some(body) = simulation.creatures.get(actor.handle) else { continue };
             actor.kind.skin.deform(body.positions(), &mut self.deformed)?;
             cache.write_frame(&self.deformed.positions)?;
             if let Some(table) = &mut self.soft_metrics {
-                table.write(&soft_row(frame, simulation, actor))?;
+                table.write(&SoftMetricsRow { crossings, ..soft_row(frame, simulation, actor) })?;
             }
         }
         Ok(())
@@ -156,6 +157,8 @@ fn soft_row(frame: usize, simulation: &Simulation, actor: &SoftActor) -> SoftMet
         z: figures.centre.z,
         volume_ratio: figures.volume_ratio,
         inverted: figures.inverted,
+        crossings: 0,
+        held: report.held,
         contraction: figures.excitation[0],
         expansion: figures.excitation[1],
         stimuli: figures.stimuli,

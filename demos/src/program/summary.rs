@@ -40,6 +40,7 @@ struct SoftSummary {
     volume: Option<[f64; 2]>,
     /// Most cells inside out at once.
     inverted: usize,
+    crossings: usize,
     frames_frozen: u64,
     /// Where the centre of all was after the first step, and where it is.
     way: Option<[Vec3; 2]>,
@@ -101,6 +102,7 @@ impl SoftSummary {
             centre += figures.centre / self.bodies as f32;
         }
         self.inverted = self.inverted.max(inverted);
+        self.crossings = self.crossings.max(simulation.soft_crossings().into_iter().sum());
         self.frames_frozen += u64::from(frozen);
         self.way = Some([self.way.map_or(centre, |[first, _]| first), centre]);
         let times = simulation.soft_times;
@@ -117,6 +119,9 @@ impl SoftSummary {
              ({x:.2}, {y:.2}, {z:.2}) m",
             self.bodies, self.inverted
         )?;
+        if self.bodies > 1 {
+            write!(f, ", at most {} edges through another body", self.crossings)?;
+        }
         if self.frames_frozen > 0 {
             write!(f, "; {} frames with a FROZEN one", self.frames_frozen)?;
         }

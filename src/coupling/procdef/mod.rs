@@ -2,6 +2,7 @@
 
 mod attachment;
 mod contacts;
+mod crossings;
 mod grip;
 mod ground;
 mod meeting;
@@ -10,6 +11,7 @@ mod water;
 
 pub use attachment::{attach_to, spawn_attachment};
 pub use contacts::{FeltContacts, GroundContact, felt_impulses, ground_contacts};
+pub use crossings::crossings;
 pub use grip::Grip;
 pub use ground::GroundDirections;
 pub use meeting::{
