@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, dot, minus, splat, vector};
+use super::lanes::{Boxes, LANES, dot, farthest, minus, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -13,6 +13,8 @@ struct Pack {
     way: [f32x8; 3],
     square: f32x8,
     inverse: f32x8,
+    /// How far the ends may go.
+    farthest: f32x8,
 }
 
 /// A boundary's edges now.
@@ -36,8 +38,8 @@ pub struct NearEdge {
 }
 
 impl PlacedEdges {
-    /// Takes over the positions of the body's vertices.
-    pub fn place(&mut self, surface: &ContactSurface, positions: &[Vec3]) {
+    /// Takes over the positions of the body's vertices, and how far each may go, in metres.
+    pub fn place(&mut self, surface: &ContactSurface, positions: &[Vec3], moves: &[f32]) {
         self.packs.clear();
         self.count = surface.edge_count;
         for edges in surface.edges.chunks_exact(LANES) {
@@ -47,13 +49,13 @@ impl PlacedEdges {
             let start = end(0);
             let way = minus(end(1), start);
             let square = dot(way, way);
-            self.packs.push(Pack { start, way, square, inverse: or_none(square) });
+            self.packs.push(Pack { start, way, square, inverse: or_none(square), farthest: farthest(edges, moves) });
         }
-        self.boxes.place(&surface.edges, positions);
+        self.boxes.place(&surface.edges, positions, moves);
     }
 
-    /// All edges within `reach` metres of the edge from `p` to `q`.
-    pub fn within(&self, p: Vec3, q: Vec3, reach: f32, mut found: impl FnMut(NearEdge)) {
+    /// All edges within `reach` metres of the edge from `p` to `q`, and farther by as much as they may go, and how far that is.
+    pub fn within(&self, p: Vec3, q: Vec3, reach: f32, mut found: impl FnMut(NearEdge, f32)) {
         let (start, way) = (splat(p), splat(q - p));
         let square = f32x8::splat(p.distance_squared(q));
         let limit = reach * reach;
@@ -61,13 +63,15 @@ impl PlacedEdges {
             let pack = &self.packs[number];
             let [s, t] = pack.nearest(start, way, square);
             let apart: [f32x8; 3] = std::array::from_fn(|k| start[k] - pack.start[k] + way[k] * s - pack.way[k] * t);
-            let mut near = dot(apart, apart).simd_le(f32x8::splat(limit)).to_bitmask();
+            let farthest = pack.farthest + f32x8::splat(reach);
+            let mut near = dot(apart, apart).simd_le(farthest * farthest).to_bitmask();
             while near != 0 {
                 let lane = near.trailing_zeros() as usize;
                 near &= near - 1;
                 let edge = number * LANES + lane;
                 if edge < self.count {
-                    found(NearEdge { edge, at: [s, t].map(|x| x.to_array()[lane]), way: vector(apart, lane) });
+                    let at = [s, t].map(|x| x.to_array()[lane]);
+                    found(NearEdge { edge, at, way: vector(apart, lane) }, pack.farthest.to_array()[lane]);
                 }
             }
             limit

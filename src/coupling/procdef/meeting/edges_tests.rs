@@ -12,12 +12,12 @@ fn edges_within_reach_are_those_of_a_search_through_all_and_their_points_are_the
     let surface = ContactSurface::new(&mesh, 0.5);
     assert_eq!((surface.edge_count, surface.edges.len(), surface.triangle_count()), (9, 16, 6));
     let mut placed = PlacedEdges::default();
-    placed.place(&surface, &corners);
+    placed.place(&surface, &corners, &[]);
     let mut met = 0;
     for _ in 0..2000 {
         let [p, q] = std::array::from_fn(|_| Vec3::from_array(std::array::from_fn(|_| 3.0 * random.f32() - 1.0)));
         let mut found = vec![None; surface.edge_count];
-        placed.within(p, q, 0.3, |near| found[near.edge] = Some(near));
+        placed.within(p, q, 0.3, |near, _| found[near.edge] = Some(near));
         for (edge, found) in surface.edges.iter().zip(found) {
             let [u, v] = edge.map(|i| corners[i as usize]);
             // The distance is convex along both: a fine search finds its least value from above.

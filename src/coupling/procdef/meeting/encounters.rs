@@ -49,11 +49,11 @@ impl Encounters {
         let pairs = pairs(bodies, &sights);
         let mut meets = vec![false; bodies.len()];
         pairs.iter().flat_map(|&(a, b)| [a, b]).for_each(|k| meets[k as usize] = true);
-        let placed = bodies.par_iter().zip(&meets).map(|(body, meets)| Placed::of(body, *meets)).collect();
         let frames = Frames::of(bodies.len(), &pairs);
         let common = frames.velocities(bodies);
         let reach = |(k, spare): (usize, f32)| Reach { spare, ..Reach::of(&bodies[k], common[frames.of_body[k]], h) };
-        let reaches = spares(&sights, &pairs, h).into_iter().enumerate().map(reach).collect();
+        let reaches: Vec<Reach> = spares(&sights, &pairs, h).into_iter().enumerate().map(reach).collect();
+        let placed = places(bodies, &reaches, &meets);
         let mut offsets = vec![0];
         for body in bodies {
             offsets.push(offsets[offsets.len() - 1] + body.body.positions().len() as u32);
@@ -235,6 +235,15 @@ impl Encounters {
         let reaches: Vec<Reach> = bodies.iter().enumerate().map(reach).collect();
         let beyond: Vec<bool> = self.reaches.iter().zip(&reaches).map(|(old, new)| old.is_short_of(new)).collect();
         self.reaches = reaches;
+        if !beyond.contains(&true) {
+            return;
+        }
+        let mut meets = vec![false; bodies.len()];
+        for &(a, b) in &self.pairs {
+            let again = beyond[a as usize] || beyond[b as usize];
+            [a, b].into_iter().for_each(|k| meets[k as usize] |= again);
+        }
+        self.placed = places(bodies, &self.reaches, &meets);
         let found: Vec<Option<Vec<Near>>> = self
             .pairs
             .par_iter()
@@ -252,15 +261,17 @@ impl Encounters {
     }
 }
 
-impl Placed {
-    fn of(body: &MeetingBody<'_>, meets: bool) -> Self {
-        let mut placed = Self::default();
-        if meets {
-            placed.triangles.place(body.surface, body.body.positions());
-            placed.edges.place(body.surface, body.body.positions());
+/// The surfaces of those bodies that meet others, where they are now.
+fn places(bodies: &[MeetingBody<'_>], reaches: &[Reach], meets: &[bool]) -> Vec<Placed> {
+    let place = |((body, reach), meets): ((&MeetingBody<'_>, &Reach), &bool)| {
+        let mut placed = Placed::default();
+        if *meets {
+            placed.triangles.place(body.surface, body.body.positions(), &reach.moves);
+            placed.edges.place(body.surface, body.body.positions(), &reach.moves);
         }
         placed
-    }
+    };
+    bodies.par_iter().zip(reaches).zip(meets).map(place).collect()
 }
 
 /// The coefficient of friction between two bodies: the mean, or the least where one has a direction of its own.

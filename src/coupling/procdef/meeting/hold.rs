@@ -16,9 +16,6 @@ use rayon::prelude::*;
 use super::near::Near;
 use crate::math::Vec3;
 
-/// The part of a distance that is never used up in one step.
-const KEPT: f32 = 0.1;
-
 /// How often ways are turned along planes.
 const TURNS: usize = 12;
 /// How often ways are shortened with regard to the other side's going away; then nothing counts on that any more.
@@ -102,13 +99,13 @@ impl Near {
     /// Whether its sides come too near.
     fn is_crossed(&self, ways: &[Vec3], signed: bool) -> bool {
         let [a, b] = self.comes(ways, signed);
-        a + b > (1.0 - KEPT) * self.distance
+        a + b > self.room
     }
 
     /// How far each side may come, for ways that lead too near; nothing for those that do not.
     fn limits(&self, ways: &[Vec3], signed: bool) -> Option<[f32; 2]> {
         let [a, b] = self.comes(ways, signed);
-        let all = (1.0 - KEPT) * self.distance;
+        let all = self.room;
         // A side that goes away gives the other its way.
         let limits = match (a > 0.0, b > 0.0) {
             (true, true) => [all * a / (a + b), all * b / (a + b)],

@@ -17,19 +17,21 @@ pub struct Boxes {
 const NO_BOXES: [[[f32; LANES]; 3]; 2] = [[[f32::MAX; LANES]; 3]; 2];
 
 impl Boxes {
-    /// The boxes around triangles or edges, in packs of eight; their number is a multiple of eight.
-    pub fn place<const N: usize>(&mut self, things: &[[u32; N]], positions: &[Vec3]) {
+    /// The boxes around triangles or edges, in packs of eight; their number is a multiple of eight. They are loosened by how far
+    /// the vertices may go, in metres; by nothing where `moves` is empty.
+    pub fn place<const N: usize>(&mut self, things: &[[u32; N]], positions: &[Vec3], moves: &[f32]) {
         self.groups.clear();
         let mut bounds = NO_BOXES;
         for (number, pack) in things.chunks_exact(LANES).enumerate() {
             let lane = number % LANES;
-            let (mut low, mut high) = (Vec3::MAX, Vec3::MIN);
+            let (mut low, mut high, mut farthest) = (Vec3::MAX, Vec3::MIN, 0.0f32);
             for &v in pack.iter().flatten() {
                 (low, high) = (low.min(positions[v as usize]), high.max(positions[v as usize]));
+                farthest = farthest.max(moves.get(v as usize).copied().unwrap_or(0.0));
             }
             for axis in 0..3 {
-                bounds[0][axis][lane] = low[axis];
-                bounds[1][axis][lane] = high[axis];
+                bounds[0][axis][lane] = low[axis] - farthest;
+                bounds[1][axis][lane] = high[axis] + farthest;
             }
             if lane + 1 == LANES || (number + 1) * LANES == things.len() {
                 self.groups.push(std::mem::replace(&mut bounds, NO_BOXES).map(|corner| corner.map(f32x8::new)));
@@ -63,6 +65,13 @@ impl Boxes {
 #[inline]
 pub fn splat(x: Vec3) -> [f32x8; 3] {
     x.to_array().map(f32x8::splat)
+}
+
+/// How far the vertices of eight triangles or edges may go; nothing where `moves` is empty.
+pub fn farthest<const N: usize>(things: &[[u32; N]], moves: &[f32]) -> f32x8 {
+    let of =
+        |thing: &[u32; N]| thing.iter().map(|&v| moves.get(v as usize).copied().unwrap_or(0.0)).fold(0.0, f32::max);
+    f32x8::new(std::array::from_fn(|i| of(&things[i])))
 }
 
 /// The vector of one lane.

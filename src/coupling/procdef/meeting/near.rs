@@ -13,6 +13,11 @@ use crate::math::Vec3;
 /// Nearer than this part of an edge there is no direction from one to the other.
 const TOUCHING: f32 = 1e-6;
 
+/// Surfaces come no nearer than this part of the gap that is kept between them: below it digits are lost.
+const FLOOR: f32 = 0.05;
+/// The part of a distance that is never used up in one step.
+const KEPT: f32 = 0.1;
+
 /// A vertex holds several triangles of another body where it lies in a fold: their ways out differ by more than this cosine.
 const OTHER_WAY: f32 = 0.7;
 
@@ -29,6 +34,8 @@ pub struct Near {
     pub normal: Vec3,
     /// How far the nearest points are apart, in metres.
     pub distance: f32,
+    /// How far both sides together may come in the step, in metres.
+    pub room: f32,
     /// How far each vertex is behind the nearest point of its side, along the normal, in metres; below 0 by rounding alone.
     pub behind: [f32; 4],
     /// Whether a contact holds it: else it is only watched.
@@ -64,13 +71,14 @@ fn vertices_near_triangles(a: &Side<'_>, b: &Side<'_>, triangles: &PlacedTriangl
     let bounds = &b.sight.bounds;
     for &v in &a.body.surface.vertices {
         let at = x[v as usize];
-        let moves = a.reach.moves[v as usize] + b.reach.farthest;
-        let reach = a.reach.spare + b.reach.spare + moves;
+        let moves = a.reach.moves[v as usize];
+        let spare = a.reach.spare + b.reach.spare + moves;
+        let reach = spare + b.reach.farthest;
         if !(at.cmpge(bounds.mins - reach).all() && at.cmple(bounds.maxs + reach).all()) {
             continue;
         }
         let from = found.len();
-        triangles.within(at, reach, |near| {
+        triangles.within(at, spare, |near, farthest| {
             let distance = near.way.length();
             if distance <= TOUCHING * b.body.surface.edge {
                 return;
@@ -87,8 +95,9 @@ fn vertices_near_triangles(a: &Side<'_>, b: &Side<'_>, triangles: &PlacedTriangl
                 weights: [1.0, -wp, -wq, -wr],
                 normal,
                 distance,
+                room: room(distance, skins),
                 behind: [0.0, p, q, r],
-                presses: distance - skins <= moves,
+                presses: distance - skins <= moves + farthest,
             });
         });
         // Of triangles in the same direction the nearest presses.
@@ -108,12 +117,13 @@ fn edges_near_edges(a: &Side<'_>, b: &Side<'_>, edges: &PlacedEdges, found: &mut
     let bounds = &b.sight.bounds;
     for &[v, w] in &a.body.surface.edges[..a.body.surface.edge_count] {
         let (p, q) = (x[v as usize], x[w as usize]);
-        let moves = a.reach.moves[v as usize].max(a.reach.moves[w as usize]) + b.reach.farthest;
-        let reach = a.reach.spare + b.reach.spare + moves;
+        let moves = a.reach.moves[v as usize].max(a.reach.moves[w as usize]);
+        let spare = a.reach.spare + b.reach.spare + moves;
+        let reach = spare + b.reach.farthest;
         if !(p.max(q).cmpge(bounds.mins - reach).all() && p.min(q).cmple(bounds.maxs + reach).all()) {
             continue;
         }
-        edges.within(p, q, reach, |near| {
+        edges.within(p, q, spare, |near, farthest| {
             let distance = near.way.length();
             if distance <= TOUCHING * b.body.surface.edge {
                 return;
@@ -133,11 +143,17 @@ fn edges_near_edges(a: &Side<'_>, b: &Side<'_>, edges: &PlacedEdges, found: &mut
                 weights: [1.0 - s, s, t - 1.0, -t],
                 normal,
                 distance,
+                room: room(distance, skins),
                 behind: [own[0], own[1], other[0], other[1]],
-                presses: crossed && distance - skins <= moves,
+                presses: crossed && distance - skins <= moves + farthest,
             });
         });
     }
+}
+
+/// How far two things that are `distance` apart may come.
+fn room(distance: f32, skins: f32) -> f32 {
+    (distance - FLOOR * skins).clamp(0.0, (1.0 - KEPT) * distance)
 }
 
 /// The unit way between nearest points; along `exact`, if that is a direction: what is at right angles to both does not lose its

@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, dot, minus, splat, vector};
+use super::lanes::{Boxes, LANES, dot, farthest, minus, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -16,6 +16,8 @@ pub struct Pack {
     /// One over the squared lengths of the three edges and over the determinant; 0 where there is no length.
     inverses: [f32x8; 4],
     normal: [f32x8; 3],
+    /// How far the corners may go.
+    farthest: f32x8,
 }
 
 /// A boundary now.
@@ -41,8 +43,8 @@ pub struct Nearest {
 }
 
 impl PlacedTriangles {
-    /// Takes over the positions of the body's vertices.
-    pub fn place(&mut self, surface: &ContactSurface, positions: &[Vec3]) {
+    /// Takes over the positions of the body's vertices, and how far each may go, in metres.
+    pub fn place(&mut self, surface: &ContactSurface, positions: &[Vec3], moves: &[f32]) {
         self.packs.clear();
         self.count = surface.triangle_count();
         for triangles in surface.triangles.chunks_exact(LANES) {
@@ -51,9 +53,9 @@ impl PlacedTriangles {
                     f32x8::new(std::array::from_fn(|i| positions[triangles[i][k] as usize][axis]))
                 })
             };
-            self.packs.push(Pack::new(corner(0), corner(1), corner(2)));
+            self.packs.push(Pack::new(corner(0), corner(1), corner(2), farthest(triangles, moves)));
         }
-        self.boxes.place(&surface.triangles, positions);
+        self.boxes.place(&surface.triangles, positions, moves);
     }
 
     /// The point of the surface nearest to `x`, if one is within `reach` metres; of triangles only whose normals `counts`. Where several triangles are equally near, the
@@ -69,19 +71,21 @@ impl PlacedTriangles {
         best
     }
 
-    /// All triangles within `reach` metres of `x`: their nearest points.
-    pub fn within(&self, x: Vec3, reach: f32, mut found: impl FnMut(Nearest)) {
+    /// All triangles within `reach` metres of `x`, and farther by as much as they may go: their nearest points, and how far
+    /// that is.
+    pub fn within(&self, x: Vec3, reach: f32, mut found: impl FnMut(Nearest, f32)) {
         let lanes = splat(x);
         let limit = reach * reach;
         self.boxes.near(x, x, limit, |number| {
             let pack = &self.packs[number];
             let foot = pack.foot(lanes);
-            let mut near = foot.squared.simd_le(f32x8::splat(limit)).to_bitmask();
+            let farthest = pack.farthest + f32x8::splat(reach);
+            let mut near = foot.squared.simd_le(farthest * farthest).to_bitmask();
             while near != 0 {
                 let lane = near.trailing_zeros() as usize;
                 near &= near - 1;
                 if number * LANES + lane < self.count {
-                    found(foot.of_lane(number, lane, pack));
+                    found(foot.of_lane(number, lane, pack), pack.farthest.to_array()[lane]);
                 }
             }
             limit
@@ -104,7 +108,7 @@ impl PlacedTriangles {
 const EQUAL: f32 = 1e-4;
 
 impl Pack {
-    fn new(a: [f32x8; 3], b: [f32x8; 3], c: [f32x8; 3]) -> Self {
+    fn new(a: [f32x8; 3], b: [f32x8; 3], c: [f32x8; 3], farthest: f32x8) -> Self {
         let (u, v) = (minus(b, a), minus(c, a));
         let (uu, vv, uv) = (dot(u, u), dot(v, v), dot(u, v));
         let or_none = |x: f32x8| x.simd_gt(f32x8::ZERO).bitselect(f32x8::ONE / x, f32x8::ZERO);
@@ -118,6 +122,7 @@ impl Pack {
             product: uv,
             inverses: [or_none(uu), or_none(vv), or_none(third), or_none(uu * vv - uv * uv)],
             normal: normal.map(|x| x * length),
+            farthest,
         }
     }
 

@@ -43,7 +43,7 @@ fn the_nearest_point_is_that_of_a_search_through_all_triangles_and_its_side_is_r
     let surface = ContactSurface::new(&mesh, 0.3);
     assert_eq!(surface.triangles.len() % 8, 0);
     let mut placed = PlacedTriangles::default();
-    placed.place(&surface, &x);
+    placed.place(&surface, &x, &[]);
     let mut random = fastrand::Rng::with_seed(5);
     let mut found = 0;
     for _ in 0..3000 {
