@@ -85,7 +85,7 @@ impl Files {
     }
 
     /// Appends the state after a step.
-    pub fn write(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<()> {
+    pub fn write(&mut self, frame: usize, simulation: &Simulation, crossings: &[usize]) -> anyhow::Result<()> {
         let poses = simulation.obstacle_poses();
         let things: Vec<_> = simulation.soft_actors.iter().map(|actor| simulation.thing_poses(actor)).collect();
         for (part, (owner, local)) in self.parts.iter().enumerate() {
@@ -95,7 +95,7 @@ impl Files {
             };
             self.obstacles.write(frame, part, &(pose * *local))?;
         }
-        self.write_soft(frame, simulation)?;
+        self.write_soft(frame, simulation, crossings)?;
         let bodies = simulation.actors.iter().filter_map(|a| Some((a, simulation.deformation.get(a.handle)?)));
         for ((actor, body), cache) in bodies.zip(&mut self.caches) {
             cache.write_frame(body.positions())?;
@@ -122,9 +122,8 @@ impl Files {
     }
 
     /// Appends the bodies that move by themselves.
-    fn write_soft(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<()> {
-        let crossings = simulation.soft_crossings();
-        for ((actor, cache), crossings) in simulation.soft_actors.iter().zip(&mut self.soft_caches).zip(crossings) {
+    fn write_soft(&mut self, frame: usize, simulation: &Simulation, crossings: &[usize]) -> anyhow::Result<()> {
+        for ((actor, cache), &crossings) in simulation.soft_actors.iter().zip(&mut self.soft_caches).zip(crossings) {
             let Some(body) = simulation.creatures.get(actor.handle) else { continue };
             actor.kind.skin.deform(body.positions(), &mut self.deformed)?;
             cache.write_frame(&self.deformed.positions)?;

@@ -49,8 +49,8 @@ struct SoftSummary {
 }
 
 impl Summary {
-    /// Takes in the state after a step.
-    pub fn add(&mut self, simulation: &Simulation) {
+    /// Takes in the state after a step, and how many edges of each soft actor go through another.
+    pub fn add(&mut self, simulation: &Simulation, crossings: &[usize]) {
         self.frames += 1;
         self.bodies = simulation.actors.len();
         self.seconds = simulation.time();
@@ -74,6 +74,7 @@ impl Summary {
             *sum += stage;
         }
         self.soft.add(simulation);
+        self.soft.crossings = self.soft.crossings.max(crossings.iter().sum());
         self.speed = fastest(simulation);
         self.still_since = match self.still_since {
             _ if self.speed > STILL => None,
@@ -102,7 +103,6 @@ impl SoftSummary {
             centre += figures.centre / self.bodies as f32;
         }
         self.inverted = self.inverted.max(inverted);
-        self.crossings = self.crossings.max(simulation.soft_crossings().into_iter().sum());
         self.frames_frozen += u64::from(frozen);
         self.way = Some([self.way.map_or(centre, |[first, _]| first), centre]);
         let times = simulation.soft_times;

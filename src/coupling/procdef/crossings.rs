@@ -30,12 +30,12 @@ pub fn crossings(bodies: &[(&[Vec3], &[[u32; 3]])]) -> Vec<usize> {
         for (other, others) in
             placed.iter().enumerate().filter(|(j, (b, _))| *j != i && b.intersects(bounds)).map(|(_, s)| s)
         {
-            let near: Vec<_> = others.iter().filter(|t| around(t.iter()).intersects(bounds)).collect();
+            let near: Vec<_> =
+                others.iter().map(|t| (around(t.iter()), t)).filter(|(own, _)| own.intersects(bounds)).collect();
             for [p, q] in (0..triangles.len()).flat_map(edges) {
                 let own = around([p, q].iter());
                 if own.intersects(other) {
-                    count +=
-                        usize::from(near.iter().any(|t| around(t.iter()).intersects(&own) && goes_through(p, q, t)));
+                    count += usize::from(near.iter().any(|(b, t)| b.intersects(&own) && goes_through(p, q, t)));
                 }
             }
         }

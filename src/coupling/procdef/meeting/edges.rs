@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, dot, farthest, minus, splat, vector};
+use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -21,7 +21,8 @@ struct Pack {
 #[derive(Clone, Debug, Default)]
 pub struct PlacedEdges {
     packs: Vec<Pack>,
-    boxes: Boxes,
+    /// The boxes of the packs.
+    pub boxes: Boxes,
     /// Edges without the repeated ones.
     count: usize,
 }
@@ -54,12 +55,12 @@ impl PlacedEdges {
         self.boxes.place(&surface.edges, positions, moves);
     }
 
-    /// All edges within `reach` metres of the edge from `p` to `q`, and farther by as much as they may go, and how far that is.
-    pub fn within(&self, p: Vec3, q: Vec3, reach: f32, mut found: impl FnMut(NearEdge, f32)) {
+    /// Of some packs all edges within `reach` metres of the edge from `p` to `q`, and farther by as much as they may go, and how
+    /// far that is.
+    pub fn within(&self, packs: &SomePacks, [p, q]: [Vec3; 2], reach: f32, mut found: impl FnMut(NearEdge, f32)) {
         let (start, way) = (splat(p), splat(q - p));
         let square = f32x8::splat(p.distance_squared(q));
-        let limit = reach * reach;
-        self.boxes.near(p.min(q), p.max(q), limit, |number| {
+        packs.near(p.min(q), p.max(q), reach, |number| {
             let pack = &self.packs[number];
             let [s, t] = pack.nearest(start, way, square);
             let apart: [f32x8; 3] = std::array::from_fn(|k| start[k] - pack.start[k] + way[k] * s - pack.way[k] * t);
@@ -74,7 +75,6 @@ impl PlacedEdges {
                     found(NearEdge { edge, at, way: vector(apart, lane) }, pack.farthest.to_array()[lane]);
                 }
             }
-            limit
         });
     }
 }

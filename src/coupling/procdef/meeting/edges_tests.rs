@@ -1,5 +1,5 @@
 use super::super::surface::ContactSurface;
-use super::PlacedEdges;
+use super::{PlacedEdges, SomePacks};
 use crate::math::Vec3;
 use crate::mesh::TetrahedralMesh;
 
@@ -13,11 +13,13 @@ fn edges_within_reach_are_those_of_a_search_through_all_and_their_points_are_the
     assert_eq!((surface.edge_count, surface.edges.len(), surface.triangle_count()), (9, 16, 6));
     let mut placed = PlacedEdges::default();
     placed.place(&surface, &corners, &[]);
+    let mut packs = SomePacks::default();
+    placed.boxes.select([Vec3::splat(-9.0), Vec3::splat(9.0)], 0.0, &mut packs);
     let mut met = 0;
     for _ in 0..2000 {
         let [p, q] = std::array::from_fn(|_| Vec3::from_array(std::array::from_fn(|_| 3.0 * random.f32() - 1.0)));
         let mut found = vec![None; surface.edge_count];
-        placed.within(p, q, 0.3, |near, _| found[near.edge] = Some(near));
+        placed.within(&packs, [p, q], 0.3, |near, _| found[near.edge] = Some(near));
         for (edge, found) in surface.edges.iter().zip(found) {
             let [u, v] = edge.map(|i| corners[i as usize]);
             // The distance is convex along both: a fine search finds its least value from above.

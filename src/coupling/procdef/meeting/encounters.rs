@@ -6,6 +6,7 @@ use super::detect::{Sight, Touch, pairs, touches_of};
 use super::edges::PlacedEdges;
 use super::frames::{Frames, Reach, spares};
 use super::hold::{Ways, hold_apart};
+use super::lanes::Boxes;
 use super::near::{Near, Side, near_of};
 use super::rigid::{Copies, Refused, Surroundings, directed, rigid_touches};
 use super::solve::{Contact, Friction, PARTING, Sides, Velocities};
@@ -23,6 +24,8 @@ pub struct Placed {
     pub triangles: PlacedTriangles,
     /// Its edges.
     pub edges: PlacedEdges,
+    /// The boxes of its vertices.
+    pub points: Boxes,
 }
 
 /// What may meet in a step.
@@ -207,7 +210,6 @@ impl Encounters {
         self.look_farther(bodies, &velocities, h);
         let mut common: Vec<(Vec3, bool)> = velocities.into_iter().map(|v| (v, false)).collect();
         rigidly_held.iter().for_each(|&body| common[self.frames.of_body[body]].1 = true);
-        let near: Vec<Near> = std::mem::take(&mut self.near).into_iter().flatten().collect();
         let mut all = self.velocities(bodies, Vec3::ZERO);
         let counts = self.offsets.windows(2).map(|w| (w[1] - w[0]) as usize);
         let frames: Vec<u32> =
@@ -219,7 +221,7 @@ impl Encounters {
             common: &common,
             h,
         };
-        let held = hold_apart(&near, &mut ways);
+        let held = hold_apart(&self.near, &mut ways);
         if held.is_empty() {
             return;
         }
@@ -268,6 +270,7 @@ fn places(bodies: &[MeetingBody<'_>], reaches: &[Reach], meets: &[bool]) -> Vec<
         if *meets {
             placed.triangles.place(body.surface, body.body.positions(), &reach.moves);
             placed.edges.place(body.surface, body.body.positions(), &reach.moves);
+            placed.points.place(&body.surface.points, body.body.positions(), &reach.moves);
         }
         placed
     };

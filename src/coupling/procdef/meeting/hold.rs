@@ -21,8 +21,8 @@ const TURNS: usize = 12;
 /// How often ways are shortened with regard to the other side's going away; then nothing counts on that any more.
 const SHORTENINGS: usize = 6;
 
-/// Near things that are looked at by one thread at a time.
-const CHUNK: usize = 2048;
+/// Pairs of bodies that are looked at by one thread at a time, at least.
+const CHUNK: usize = 16;
 
 /// The vertices of all bodies that may meet.
 pub struct Ways<'a> {
@@ -38,13 +38,14 @@ pub struct Ways<'a> {
     pub h: f32,
 }
 
-/// Changes the ways of vertices so that nothing that is near crosses. The vertices that were held back, ascending.
-pub fn hold_apart(near: &[Near], ways: &mut Ways<'_>) -> Vec<u32> {
+/// Changes the ways of vertices so that nothing that is near crosses, for lists of what is near of each pair of bodies. The vertices that were held back, ascending.
+pub fn hold_apart(near: &[Vec<Near>], ways: &mut Ways<'_>) -> Vec<u32> {
     let h = ways.h;
     let along = ways.velocities.iter().zip(ways.frames);
     let mut to: Vec<Vec3> = along.map(|(v, &frame)| (*v - ways.common[frame as usize].0) * h).collect();
     let crosses = |near: &&Near| near.is_crossed(&to, true);
-    let mut crossing: Vec<&Near> = near.par_chunks(CHUNK).flat_map_iter(|chunk| chunk.iter().filter(crosses)).collect();
+    let mut crossing: Vec<&Near> =
+        near.par_iter().with_min_len(CHUNK).flat_map_iter(|pair| pair.iter().filter(crosses)).collect();
     if crossing.is_empty() {
         return Vec::new();
     }
@@ -62,7 +63,7 @@ pub fn hold_apart(near: &[Near], ways: &mut Ways<'_>) -> Vec<u32> {
         // In the last round all is looked at again: it counts on less.
         let next = round + 1 < TURNS + SHORTENINGS;
         let concerned = |near: &&Near| near.vertices.iter().any(|&v| changed[v as usize]);
-        crossing = near.iter().filter(|near| concerned(near) && near.is_crossed(&to, next)).collect();
+        crossing = near.iter().flatten().filter(|near| concerned(near) && near.is_crossed(&to, next)).collect();
         if crossing.is_empty() {
             break;
         }

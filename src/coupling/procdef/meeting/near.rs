@@ -4,10 +4,9 @@
 
 use super::MeetingBody;
 use super::detect::Sight;
-use super::edges::PlacedEdges;
 use super::encounters::Placed;
 use super::frames::Reach;
-use super::triangles::PlacedTriangles;
+use super::lanes::{LANES, SomePacks, are_near};
 use crate::math::Vec3;
 
 /// Nearer than this part of an edge there is no direction from one to the other.
@@ -59,96 +58,122 @@ pub struct Side<'a> {
 /// All that is near of two bodies.
 pub fn near_of(a: &Side<'_>, b: &Side<'_>) -> Vec<Near> {
     let mut found = Vec::new();
-    vertices_near_triangles(a, b, &b.placed.triangles, &mut found);
-    vertices_near_triangles(b, a, &a.placed.triangles, &mut found);
-    edges_near_edges(a, b, &b.placed.edges, &mut found);
+    let own = [a.sight.bounds.mins - a.reach.farthest, a.sight.bounds.maxs + a.reach.farthest];
+    let other = [b.sight.bounds.mins - b.reach.farthest, b.sight.bounds.maxs + b.reach.farthest];
+    let spare = a.reach.spare + b.reach.spare;
+    if are_near(own, other, spare) {
+        vertices_near_triangles(a, (b, other), spare, &mut found);
+        vertices_near_triangles(b, (a, own), spare, &mut found);
+        edges_near_edges(a, (b, other), spare, &mut found);
+    }
     found
 }
 
-fn vertices_near_triangles(a: &Side<'_>, b: &Side<'_>, triangles: &PlacedTriangles, found: &mut Vec<Near>) {
-    let (x, y) = (a.body.body.positions(), b.body.body.positions());
-    let skins = a.sight.skin + b.sight.skin;
-    let bounds = &b.sight.bounds;
-    for &v in &a.body.surface.vertices {
-        let at = x[v as usize];
-        let moves = a.reach.moves[v as usize];
-        let spare = a.reach.spare + b.reach.spare + moves;
-        let reach = spare + b.reach.farthest;
-        if !(at.cmpge(bounds.mins - reach).all() && at.cmple(bounds.maxs + reach).all()) {
-            continue;
-        }
-        let from = found.len();
-        triangles.within(at, spare, |near, farthest| {
-            let distance = near.way.length();
-            if distance <= TOUCHING * b.body.surface.edge {
-                return;
+fn vertices_near_triangles(a: &Side<'_>, (b, other): (&Side<'_>, [Vec3; 2]), spare: f32, found: &mut Vec<Near>) {
+    let triangles = &b.placed.triangles;
+    let surface = a.body.surface;
+    let mut packs = SomePacks::default();
+    let mut seen = surface.vertices.len();
+    for (points, &around) in surface.points.chunks_exact(LANES).zip(a.placed.points.corners()) {
+        if are_near(around, other, spare) {
+            triangles.boxes.select(around, spare, &mut packs);
+            if !packs.is_empty() {
+                for &[v] in points.iter().take(seen) {
+                    vertex_near_triangles(v, a, b, &packs, spare, found);
+                }
             }
-            let corners = b.body.surface.triangles[near.triangle];
-            let inside = near.weights.iter().all(|w| *w > 0.0);
-            let normal = direction(near.way, distance, if inside { near.normal } else { Vec3::ZERO });
-            let point = at - near.way;
-            let [p, q, r] = corners.map(|c| normal.dot(point - y[c as usize]));
-            let [wp, wq, wr] = near.weights;
-            found.push(Near {
-                vertices: [v + a.offset, corners[0] + b.offset, corners[1] + b.offset, corners[2] + b.offset],
-                first: 1,
-                weights: [1.0, -wp, -wq, -wr],
-                normal,
-                distance,
-                room: room(distance, skins),
-                behind: [0.0, p, q, r],
-                presses: distance - skins <= moves + farthest,
-            });
-        });
-        // Of triangles in the same direction the nearest presses.
-        let own = &mut found[from..];
-        own.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.vertices.cmp(&b.vertices)));
-        for k in 1..own.len() {
-            let (before, rest) = own.split_at_mut(k);
-            let same = |other: &Near| other.presses && other.normal.dot(rest[0].normal) > OTHER_WAY;
-            rest[0].presses &= !before.iter().any(same);
         }
+        seen = seen.saturating_sub(LANES);
     }
 }
 
-fn edges_near_edges(a: &Side<'_>, b: &Side<'_>, edges: &PlacedEdges, found: &mut Vec<Near>) {
+fn vertex_near_triangles(v: u32, a: &Side<'_>, b: &Side<'_>, packs: &SomePacks, spare: f32, found: &mut Vec<Near>) {
     let (x, y) = (a.body.body.positions(), b.body.body.positions());
     let skins = a.sight.skin + b.sight.skin;
-    let bounds = &b.sight.bounds;
-    for &[v, w] in &a.body.surface.edges[..a.body.surface.edge_count] {
-        let (p, q) = (x[v as usize], x[w as usize]);
-        let moves = a.reach.moves[v as usize].max(a.reach.moves[w as usize]);
-        let spare = a.reach.spare + b.reach.spare + moves;
-        let reach = spare + b.reach.farthest;
-        if !(p.max(q).cmpge(bounds.mins - reach).all() && p.min(q).cmple(bounds.maxs + reach).all()) {
-            continue;
+    let at = x[v as usize];
+    let moves = a.reach.moves[v as usize];
+    let spare = spare + moves;
+    let from = found.len();
+    b.placed.triangles.within(packs, at, spare, |near, farthest| {
+        let distance = near.way.length();
+        if distance <= TOUCHING * b.body.surface.edge {
+            return;
         }
-        edges.within(p, q, spare, |near, farthest| {
-            let distance = near.way.length();
-            if distance <= TOUCHING * b.body.surface.edge {
-                return;
-            }
-            let [e, f] = b.body.surface.edges[near.edge];
-            let [s, t] = near.at;
-            // At an end a vertex is nearer to one of the triangles beside the edge, or as near.
-            let crossed = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
-            let across = if crossed { (q - p).cross(y[f as usize] - y[e as usize]) } else { Vec3::ZERO };
-            let normal = direction(near.way, distance, across.normalize_or_zero());
-            let (own, other) = (p + (q - p) * s, y[e as usize] + (y[f as usize] - y[e as usize]) * t);
-            let own = [p, q].map(|x| normal.dot(x - own));
-            let other = [e, f].map(|c| normal.dot(other - y[c as usize]));
-            found.push(Near {
-                vertices: [v + a.offset, w + a.offset, e + b.offset, f + b.offset],
-                first: 2,
-                weights: [1.0 - s, s, t - 1.0, -t],
-                normal,
-                distance,
-                room: room(distance, skins),
-                behind: [own[0], own[1], other[0], other[1]],
-                presses: crossed && distance - skins <= moves + farthest,
-            });
+        let corners = b.body.surface.triangles[near.triangle];
+        let inside = near.weights.iter().all(|w| *w > 0.0);
+        let normal = direction(near.way, distance, if inside { near.normal } else { Vec3::ZERO });
+        let point = at - near.way;
+        let [p, q, r] = corners.map(|c| normal.dot(point - y[c as usize]));
+        let [wp, wq, wr] = near.weights;
+        found.push(Near {
+            vertices: [v + a.offset, corners[0] + b.offset, corners[1] + b.offset, corners[2] + b.offset],
+            first: 1,
+            weights: [1.0, -wp, -wq, -wr],
+            normal,
+            distance,
+            room: room(distance, skins),
+            behind: [0.0, p, q, r],
+            presses: distance - skins <= moves + farthest,
         });
+    });
+    // Of triangles in the same direction the nearest presses.
+    let own = &mut found[from..];
+    own.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.vertices.cmp(&b.vertices)));
+    for k in 1..own.len() {
+        let (before, rest) = own.split_at_mut(k);
+        let same = |other: &Near| other.presses && other.normal.dot(rest[0].normal) > OTHER_WAY;
+        rest[0].presses &= !before.iter().any(same);
     }
+}
+
+fn edges_near_edges(a: &Side<'_>, (b, other): (&Side<'_>, [Vec3; 2]), spare: f32, found: &mut Vec<Near>) {
+    let surface = a.body.surface;
+    let mut packs = SomePacks::default();
+    let mut seen = surface.edge_count;
+    for (edges, &around) in surface.edges.chunks_exact(LANES).zip(a.placed.edges.boxes.corners()) {
+        if are_near(around, other, spare) {
+            b.placed.edges.boxes.select(around, spare, &mut packs);
+            if !packs.is_empty() {
+                for &edge in edges.iter().take(seen) {
+                    edge_near_edges(edge, a, b, &packs, spare, found);
+                }
+            }
+        }
+        seen = seen.saturating_sub(LANES);
+    }
+}
+
+fn edge_near_edges([v, w]: [u32; 2], a: &Side<'_>, b: &Side<'_>, packs: &SomePacks, spare: f32, found: &mut Vec<Near>) {
+    let (x, y) = (a.body.body.positions(), b.body.body.positions());
+    let skins = a.sight.skin + b.sight.skin;
+    let (p, q) = (x[v as usize], x[w as usize]);
+    let moves = a.reach.moves[v as usize].max(a.reach.moves[w as usize]);
+    let spare = spare + moves;
+    b.placed.edges.within(packs, [p, q], spare, |near, farthest| {
+        let distance = near.way.length();
+        if distance <= TOUCHING * b.body.surface.edge {
+            return;
+        }
+        let [e, f] = b.body.surface.edges[near.edge];
+        let [s, t] = near.at;
+        // At an end a vertex is nearer to one of the triangles beside the edge, or as near.
+        let crossed = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
+        let across = if crossed { (q - p).cross(y[f as usize] - y[e as usize]) } else { Vec3::ZERO };
+        let normal = direction(near.way, distance, across.normalize_or_zero());
+        let (own, other) = (p + (q - p) * s, y[e as usize] + (y[f as usize] - y[e as usize]) * t);
+        let own = [p, q].map(|x| normal.dot(x - own));
+        let other = [e, f].map(|c| normal.dot(other - y[c as usize]));
+        found.push(Near {
+            vertices: [v + a.offset, w + a.offset, e + b.offset, f + b.offset],
+            first: 2,
+            weights: [1.0 - s, s, t - 1.0, -t],
+            normal,
+            distance,
+            room: room(distance, skins),
+            behind: [own[0], own[1], other[0], other[1]],
+            presses: crossed && distance - skins <= moves + farthest,
+        });
+    });
 }
 
 /// How far two things that are `distance` apart may come.

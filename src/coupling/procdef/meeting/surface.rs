@@ -15,6 +15,8 @@ pub struct ContactSurface {
     places: Vec<[u32; 3]>,
     /// The edges, in the same manner.
     pub edges: Vec<[u32; 2]>,
+    /// The vertices once more, in the same manner.
+    pub points: Vec<[u32; 1]>,
     /// How many edges there are without the repeated ones.
     pub edge_count: usize,
     /// The mean length of an edge in metres.
@@ -36,9 +38,10 @@ impl ContactSurface {
         let edge_count = edges.len();
         let triangles = in_packs(&triangles, positions);
         let edges = in_packs(&edges, positions);
+        let points = in_packs(&vertices.iter().map(|&v| [v]).collect::<Vec<_>>(), positions);
         let place = |v: u32| vertices.binary_search(&v).unwrap_or_default() as u32;
         let places = triangles[..count].iter().map(|t| t.map(place)).collect();
-        Self { vertices, triangles, places, edges, edge_count, edge }
+        Self { vertices, triangles, places, edges, points, edge_count, edge }
     }
 
     /// How many triangles there are without the repeated ones.

@@ -8,8 +8,10 @@ use rayon::prelude::*;
 
 use super::near::Side;
 
-/// Two bodies that stay near each other are looked at every so many steps.
+/// Edges of two bodies that stay near each other are looked at every so many steps.
 const LOOKED_AT: u64 = 16;
+/// And whether one is inside the other, which takes longer and needs a hand that puts it there.
+const INSIDE_LOOKED_AT: u64 = 128;
 
 /// The pairs of bodies that were near each other and apart in the last step.
 #[derive(Clone, Debug, Default)]
@@ -28,8 +30,12 @@ impl KnownApart {
             .par_iter()
             .enumerate()
             .map(|(number, pair)| {
-                let looked_at = (self.step + number as u64).is_multiple_of(LOOKED_AT);
-                (looked_at || !known(&name(pair))) && are_tangled(&pair.0, &pair.1)
+                let new = !known(&name(pair));
+                let due = |every: u64| new || (self.step + number as u64).is_multiple_of(every);
+                let (a, b) = pair;
+                a.sight.bounds.intersects(&b.sight.bounds)
+                    && (due(LOOKED_AT) && (pierces(a, b) || pierces(b, a))
+                        || due(INSIDE_LOOKED_AT) && (starts_inside(a, b) || starts_inside(b, a)))
             })
             .collect();
         let apart = pairs.iter().zip(&tangled).filter(|(_, tangled)| !**tangled);
@@ -39,12 +45,7 @@ impl KnownApart {
     }
 }
 
-/// Whether an edge of one pierces a triangle of the other, or one is inside the other.
-fn are_tangled(a: &Side<'_>, b: &Side<'_>) -> bool {
-    a.sight.bounds.intersects(&b.sight.bounds)
-        && (pierces(a, b) || pierces(b, a) || starts_inside(a, b) || starts_inside(b, a))
-}
-
+/// Whether an edge of `a` goes through a triangle of `b`.
 fn pierces(a: &Side<'_>, b: &Side<'_>) -> bool {
     let x = a.body.body.positions();
     let bounds = &b.sight.bounds;

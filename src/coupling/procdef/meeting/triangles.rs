@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, dot, farthest, minus, splat, vector};
+use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -24,7 +24,8 @@ pub struct Pack {
 #[derive(Clone, Debug, Default)]
 pub struct PlacedTriangles {
     packs: Vec<Pack>,
-    boxes: Boxes,
+    /// The boxes of the packs.
+    pub boxes: Boxes,
     /// Triangles without the repeated ones.
     count: usize,
 }
@@ -71,12 +72,11 @@ impl PlacedTriangles {
         best
     }
 
-    /// All triangles within `reach` metres of `x`, and farther by as much as they may go: their nearest points, and how far
-    /// that is.
-    pub fn within(&self, x: Vec3, reach: f32, mut found: impl FnMut(Nearest, f32)) {
+    /// Of some packs all triangles within `reach` metres of `x`, and farther by as much as they may go: their nearest points,
+    /// and how far that is.
+    pub fn within(&self, packs: &SomePacks, x: Vec3, reach: f32, mut found: impl FnMut(Nearest, f32)) {
         let lanes = splat(x);
-        let limit = reach * reach;
-        self.boxes.near(x, x, limit, |number| {
+        packs.near(x, x, reach, |number| {
             let pack = &self.packs[number];
             let foot = pack.foot(lanes);
             let farthest = pack.farthest + f32x8::splat(reach);
@@ -88,7 +88,6 @@ impl PlacedTriangles {
                     found(foot.of_lane(number, lane, pack), pack.farthest.to_array()[lane]);
                 }
             }
-            limit
         });
     }
 
