@@ -108,6 +108,7 @@ impl Files {
                 max_depth_after: report.penetration.max_depth_after,
                 max_piercing: report.penetration.max_piercing,
                 max_gap: report.penetration.max_gap,
+                max_pair_depth: report.max_pair_depth,
                 vertices_inside: report.penetration.vertices_inside as usize,
                 time_coherence: report.penetration.coherence.ratio,
                 passes: report.passes as usize,
