@@ -261,8 +261,8 @@ fn real_meshes_are_filled_within_two_percent_without_a_size_of_cells() {
             continue;
         }
         let surface = crate::mesh::load_obj(path).expect("a surface");
-        let (mesh, report, cell) = fill_closely(&surface).expect("cells");
-        println!("{name}: {} cells of {} of its size, {report:?}", mesh.cells.len(), cell / surface.size());
+        let (mesh, report) = fill_closely(&surface).expect("cells");
+        println!("{name}: {} cells of {} of its size, {report:?}", mesh.cells.len(), report.cell_size / surface.size());
         assert!(report.follows(), "{name}: {report:?}");
         assert!((report.volume_ratio - 1.0).abs() < 0.02, "{name}: {report:?}");
     }

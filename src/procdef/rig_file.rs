@@ -91,8 +91,8 @@ fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh
             }
             let unusable = |e| fault(Place::root("mesh"), e);
             let surface = load_obj(path).map_err(|e| fault(Place::root("mesh"), e))?;
-            let (mesh, report, cell) = match cell_size {
-                Some(cell) => fill_surface(&surface, cell).map(|(mesh, report)| (mesh, report, cell)),
+            let (mesh, report) = match cell_size {
+                Some(cell) => fill_surface(&surface, cell),
                 None => fill_closely(&surface),
             }
             .map_err(unusable)?;
@@ -100,7 +100,8 @@ fn mesh(text: &TomlText, description: &RigDescription) -> Result<TetrahedralMesh
                 return Ok(mesh);
             }
             let (distance, percent) = (report.hausdorff, 100.0 * report.relative);
-            let error = TetrahedralError::NotFollowed { cell_size: cell, distance, percent };
+            let error =
+                TetrahedralError::NotFollowed { cell_size: cell_size.unwrap_or(report.cell_size), distance, percent };
             Err(fault(Place::root(if cell_size.is_some() { "cell_size" } else { "mesh" }), error))
         }
     }

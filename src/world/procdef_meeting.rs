@@ -9,7 +9,11 @@ use super::procdef_view::ProcDefView;
 use super::procdef_world::ProcDefWorld;
 use crate::coupling::ObstacleError;
 use crate::coupling::procdef::{GroundFriction, MeetingBody, MeetingStep, Refused, meet};
+use crate::math::Vec3;
 use crate::procdef::ContactKind;
+
+/// Bodies with a vertex that is faster than this, in m/s, meet nothing.
+const FASTEST: f32 = 1.0e5;
 
 impl ProcDefWorld {
     /// Bodies whose contacts are those of vertices are kept apart from all others, from rigid bodies and from the ground. The
@@ -37,8 +41,9 @@ impl ProcDefWorld {
         let mut members = Vec::new();
         let mut bodies = Vec::new();
         for (place, ((index, entry), visit)) in self.entries.iter_mut().zip(visits.iter()).enumerate() {
-            // What is not finite must not reach the others.
-            if visit.report.frozen.is_some() || !entry.body.velocities().iter().all(|v| v.is_finite()) {
+            // What is not finite, or will not be for long, must not reach the others.
+            let sane = |v: &Vec3| v.length_squared() < FASTEST * FASTEST;
+            if visit.report.frozen.is_some() || !entry.body.velocities().iter().all(sane) {
                 continue;
             }
             let turned = entry.is_turned();
@@ -52,6 +57,7 @@ impl ProcDefWorld {
                 friction,
                 ground: entry.directions.as_deref().map(|directions| GroundFriction { directions, turned }),
                 attached: &attached[place],
+                stood: !entry.meeting.ground.is_empty(),
                 own_contacts: entry.model.contacts == ContactKind::Vertices,
             });
         }

@@ -1,7 +1,7 @@
-//! Whether bodies are in each other: edges of one that go through triangles of another, counted exactly, for measuring.
+//! Whether bodies are in each other: edges of one that go through triangles of another, counted in 64 bits, for measuring.
 //!
-//! Bodies that started apart and have no crossing were never in each other. The step does not ask this; it holds bodies apart by other
-//! means.
+//! An edge that goes exactly through a side or a corner of triangles counts in none of them, and what is wholly inside another body
+//! crosses nothing. The step does not ask this; it holds bodies apart by other means.
 
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rayon::prelude::*;

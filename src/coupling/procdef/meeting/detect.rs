@@ -61,13 +61,17 @@ pub struct Touch {
 
 /// The pairs of bodies whose regions meet and whose groups allow it, in ascending order.
 pub fn pairs(bodies: &[MeetingBody<'_>], sights: &[Sight]) -> Vec<(u32, u32)> {
+    // Along the axis on which they are spread most.
+    let mut spread = Aabb::new_invalid();
+    sights.iter().for_each(|sight| spread.take_point(sight.region.mins));
+    let axis = spread.extents().max_position();
     let mut order: Vec<u32> = (0..sights.len() as u32).collect();
-    let start = |i: u32| sights[i as usize].region.mins.x;
+    let start = |i: u32| sights[i as usize].region.mins[axis];
     order.sort_by(|&a, &b| start(a).total_cmp(&start(b)).then(a.cmp(&b)));
     let mut pairs = Vec::new();
     for (k, &a) in order.iter().enumerate() {
         let (seen, first) = (&sights[a as usize], &bodies[a as usize]);
-        for &b in order[k + 1..].iter().take_while(|&&b| start(b) <= seen.region.maxs.x) {
+        for &b in order[k + 1..].iter().take_while(|&&b| start(b) <= seen.region.maxs[axis]) {
             let second = &bodies[b as usize];
             // What rapier's surfaces do already is not done twice.
             if (first.own_contacts || second.own_contacts)

@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, splat, vector};
+use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, or_none, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -94,12 +94,6 @@ impl Pack {
         let s = clamp((b * t - c) * or_none(a));
         [s, t]
     }
-}
-
-/// One over what is positive, else 0.
-#[inline]
-fn or_none(x: f32x8) -> f32x8 {
-    x.simd_gt(f32x8::ZERO).bitselect(f32x8::ONE / x, f32x8::ZERO)
 }
 
 #[cfg(test)]

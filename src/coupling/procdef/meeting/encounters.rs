@@ -38,6 +38,8 @@ pub struct Encounters {
     sights: Vec<Sight>,
     placed: Vec<Placed>,
     reaches: Vec<Reach>,
+    /// Which bodies are in one of the pairs.
+    meets: Vec<bool>,
     /// What is near of pairs that are apart.
     near: Vec<Vec<Near>>,
     /// How those get apart that are not; of a pair there is one or the other.
@@ -46,22 +48,24 @@ pub struct Encounters {
 
 impl Encounters {
     /// Looks for all that may meet of some bodies.
-    pub fn find(bodies: &[MeetingBody<'_>], step: &MeetingStep, apart: &mut KnownApart) -> Self {
+    /// `stands` tells which bodies stand on fixed ones.
+    pub fn find(bodies: &[MeetingBody<'_>], step: &MeetingStep, stands: &[bool], apart: &mut KnownApart) -> Self {
         let h = step.dt;
         let sights: Vec<Sight> = bodies.par_iter().map(|body| Sight::of(body, step.drift(), h)).collect();
         let pairs = pairs(bodies, &sights);
         let mut meets = vec![false; bodies.len()];
         pairs.iter().flat_map(|&(a, b)| [a, b]).for_each(|k| meets[k as usize] = true);
         let frames = Frames::of(bodies.len(), &pairs);
-        let common = frames.velocities(bodies);
-        let reach = |(k, spare): (usize, f32)| Reach { spare, ..Reach::of(&bodies[k], common[frames.of_body[k]], h) };
+        let common = frames.velocities(bodies, stands);
+        let reach = |(k, spare): (usize, f32)| Reach { spare, ..Reach::of(&bodies[k], common[frames.of_body[k]].0, h) };
         let reaches: Vec<Reach> = spares(&sights, &pairs, h).into_iter().enumerate().map(reach).collect();
         let placed = places(bodies, &reaches, &meets);
         let mut offsets = vec![0];
         for body in bodies {
             offsets.push(offsets[offsets.len() - 1] + body.body.positions().len() as u32);
         }
-        let mut found = Self { pairs, frames, offsets, sights, placed, reaches, near: Vec::new(), tangled: Vec::new() };
+        let mut found =
+            Self { pairs, frames, offsets, sights, placed, reaches, meets, near: Vec::new(), tangled: Vec::new() };
         let sides: Vec<_> = found.pairs.iter().map(|&(a, b)| (found.side(bodies, a), found.side(bodies, b))).collect();
         let tangled = apart.tangled(&sides);
         let both: Vec<_> = sides
@@ -154,25 +158,26 @@ impl Encounters {
         }
     }
 
-    /// What contacts did to each body; `ground` says where the first of them come from.
+    /// What contacts did to each body; `touched` says where the first of them come from, those with rigid bodies.
     pub fn report(
         &self,
         bodies: &[MeetingBody<'_>],
         contacts: &[Contact],
-        ground: &[(usize, u32, bool)],
+        touched: &[(usize, u32, bool)],
         meetings: &mut [Meeting],
     ) {
         let mut felt = vec![Vec3::ZERO; self.offsets[bodies.len()] as usize];
-        let from = ground.iter().map(Some).chain(std::iter::repeat(None));
+        let from = touched.iter().map(Some).chain(std::iter::repeat(None));
         for (contact, from) in contacts.iter().zip(from) {
             let (pressed, braked) = contact.impulse;
             let (vertices, weights, count) = match contact.sides {
                 Sides::Soft(vertices, weights) => (vertices, weights, 4),
                 Sides::Rigid(vertex, ..) => ([vertex; 4], [1.0; 4], 1),
             };
-            let body = self.offsets.partition_point(|&o| o <= vertices[0]) - 1;
-            let deepest = &mut meetings[body].deepest;
-            *deepest = deepest.max(-contact.gap);
+            for v in [vertices[0], vertices[3]] {
+                let deepest = &mut meetings[self.offsets.partition_point(|&o| o <= v) - 1].deepest;
+                *deepest = deepest.max(-contact.gap);
+            }
             if pressed == 0.0 {
                 continue;
             }
@@ -194,22 +199,36 @@ impl Encounters {
         }
     }
 
-    /// Shortens the ways of vertices that contacts would let into another body. `rigidly_held` are the bodies that touch
-    /// something rigid.
+    /// Turns and shortens the ways of vertices that contacts would let into another body.
     pub fn hold_apart(
-        &mut self,
+        self,
         bodies: &mut [MeetingBody<'_>],
-        h: f32,
-        rigidly_held: &[usize],
+        step: &MeetingStep,
+        stands: &[bool],
+        apart: &mut KnownApart,
+        meetings: &mut [Meeting],
+    ) {
+        let common = self.frames.velocities(bodies, stands);
+        if self.is_left(bodies, step, &common) {
+            // Contacts sent a vertex farther than was looked at: all is looked for again.
+            let found = Self::find(bodies, step, stands, apart);
+            let common = found.frames.velocities(bodies, stands);
+            found.hold_near_apart(bodies, step, &common, meetings);
+        } else {
+            self.hold_near_apart(bodies, step, &common, meetings);
+        }
+    }
+
+    fn hold_near_apart(
+        &self,
+        bodies: &mut [MeetingBody<'_>],
+        step: &MeetingStep,
+        common: &[(Vec3, bool)],
         meetings: &mut [Meeting],
     ) {
         if self.pairs.is_empty() {
             return;
         }
-        let velocities = self.frames.velocities(bodies);
-        self.look_farther(bodies, &velocities, h);
-        let mut common: Vec<(Vec3, bool)> = velocities.into_iter().map(|v| (v, false)).collect();
-        rigidly_held.iter().for_each(|&body| common[self.frames.of_body[body]].1 = true);
         let mut all = self.velocities(bodies, Vec3::ZERO);
         let counts = self.offsets.windows(2).map(|w| (w[1] - w[0]) as usize);
         let frames: Vec<u32> =
@@ -218,8 +237,8 @@ impl Encounters {
             velocities: &mut all.vertices,
             inverse_masses: &all.inverse_masses,
             frames: &frames,
-            common: &common,
-            h,
+            common,
+            h: step.dt,
         };
         let held = hold_apart(&self.near, &mut ways);
         if held.is_empty() {
@@ -231,35 +250,17 @@ impl Encounters {
         }
     }
 
-    /// Where contacts sent a vertex farther than was looked at, more may be near.
-    fn look_farther(&mut self, bodies: &[MeetingBody<'_>], common: &[Vec3], h: f32) {
-        let reach = |(k, body): (usize, &MeetingBody<'_>)| Reach::of(body, common[self.frames.of_body[k]], h);
-        let reaches: Vec<Reach> = bodies.iter().enumerate().map(reach).collect();
-        let beyond: Vec<bool> = self.reaches.iter().zip(&reaches).map(|(old, new)| old.is_short_of(new)).collect();
-        self.reaches = reaches;
-        if !beyond.contains(&true) {
-            return;
-        }
-        let mut meets = vec![false; bodies.len()];
-        for &(a, b) in &self.pairs {
-            let again = beyond[a as usize] || beyond[b as usize];
-            [a, b].into_iter().for_each(|k| meets[k as usize] |= again);
-        }
-        self.placed = places(bodies, &self.reaches, &meets);
-        let found: Vec<Option<Vec<Near>>> = self
-            .pairs
-            .par_iter()
-            .zip(&self.tangled)
-            .map(|(&(a, b), tangled)| {
-                let again = tangled.is_none() && (beyond[a as usize] || beyond[b as usize]);
-                again.then(|| near_of(&self.side(bodies, a), &self.side(bodies, b)))
+    /// Whether a body goes where nothing was looked for.
+    fn is_left(&self, bodies: &[MeetingBody<'_>], step: &MeetingStep, common: &[(Vec3, bool)]) -> bool {
+        let drift = step.drift();
+        bodies.len() > 1
+            && bodies.par_iter().enumerate().any(|(k, body)| {
+                let (x, v) = (body.body.positions(), body.body.velocities());
+                let region = &self.sights[k].region;
+                let leaves = |&i: &u32| !region.contains_local_point(x[i as usize] + (v[i as usize] + drift) * step.dt);
+                let short = || self.reaches[k].is_short_of(&Reach::of(body, common[self.frames.of_body[k]].0, step.dt));
+                body.surface.vertices.iter().any(leaves) || self.meets[k] && short()
             })
-            .collect();
-        for (near, found) in self.near.iter_mut().zip(found) {
-            if let Some(found) = found {
-                *near = found;
-            }
-        }
     }
 }
 

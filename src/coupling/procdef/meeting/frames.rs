@@ -47,8 +47,11 @@ impl Frames {
         Self { of_body, count }
     }
 
-    /// The mean velocity of each frame's bodies now, in m/s.
-    pub fn velocities(&self, bodies: &[MeetingBody<'_>]) -> Vec<Vec3> {
+    /// The velocity of each frame now, in m/s, and whether fixed bodies hold it: the mean of its bodies, or that of what holds
+    /// one of them, none. `held` are the bodies that stand on fixed ones.
+    pub fn velocities(&self, bodies: &[MeetingBody<'_>], held: &[bool]) -> Vec<(Vec3, bool)> {
+        let mut fixed = vec![false; self.count];
+        self.of_body.iter().zip(held).for_each(|(&frame, held)| fixed[frame] |= held);
         let mut sums = vec![(Vec3::ZERO, 0.0f32); self.count];
         for (body, &frame) in bodies.iter().zip(&self.of_body) {
             let (momentum, mass) = &mut sums[frame];
@@ -57,7 +60,8 @@ impl Frames {
                 *mass += m;
             }
         }
-        sums.into_iter().map(|(momentum, mass)| momentum / mass.max(f32::MIN_POSITIVE)).collect()
+        let mean = |(momentum, mass): (Vec3, f32)| momentum / mass.max(f32::MIN_POSITIVE);
+        sums.into_iter().zip(fixed).map(|(sum, fixed)| (if fixed { Vec3::ZERO } else { mean(sum) }, fixed)).collect()
     }
 }
 

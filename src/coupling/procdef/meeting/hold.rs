@@ -8,7 +8,7 @@
 //! shorten ways by spheres in place of planes.)
 //!
 //! Ways are those beside the common motion of all bodies that may meet. What this takes of their momentum is given back to all of
-//! them, unless something rigid holds them.
+//! them, unless fixed bodies hold them: then the common motion is theirs.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -21,6 +21,9 @@ const TURNS: usize = 12;
 /// How often ways are shortened with regard to the other side's going away; then nothing counts on that any more.
 const SHORTENINGS: usize = 6;
 
+/// Rounds at most; what is left then is a matter of the last digits.
+const MOST_ROUNDS: usize = 64;
+
 /// Pairs of bodies that are looked at by one thread at a time, at least.
 const CHUNK: usize = 16;
 
@@ -32,7 +35,7 @@ pub struct Ways<'a> {
     pub inverse_masses: &'a [f32],
     /// The frame of each.
     pub frames: &'a [u32],
-    /// The velocity of each frame, and whether something rigid holds its bodies.
+    /// The velocity of each frame, and whether fixed bodies hold it.
     pub common: &'a [(Vec3, bool)],
     /// The length of the step in seconds.
     pub h: f32,
@@ -50,7 +53,8 @@ pub fn hold_apart(near: &[Vec<Near>], ways: &mut Ways<'_>) -> Vec<u32> {
         return Vec::new();
     }
     let mut changed = vec![false; to.len()];
-    for round in 0..=TURNS + SHORTENINGS {
+    for round in 0.. {
+        // The last rounds end: with nothing that counts on another's going away, to shorten a way brings nothing else nearer.
         let signed = round < TURNS + SHORTENINGS;
         for near in crossing {
             near.vertices.iter().for_each(|&v| changed[v as usize] = true);
@@ -60,11 +64,10 @@ pub fn hold_apart(near: &[Vec<Near>], ways: &mut Ways<'_>) -> Vec<u32> {
                 near.shorten(&mut to, signed);
             }
         }
-        // In the last round all is looked at again: it counts on less.
         let next = round + 1 < TURNS + SHORTENINGS;
         let concerned = |near: &&Near| near.vertices.iter().any(|&v| changed[v as usize]);
         crossing = near.iter().flatten().filter(|near| concerned(near) && near.is_crossed(&to, next)).collect();
-        if crossing.is_empty() {
+        if crossing.is_empty() || round > MOST_ROUNDS {
             break;
         }
     }

@@ -125,6 +125,12 @@ pub fn splat(x: Vec3) -> [f32x8; 3] {
     x.to_array().map(f32x8::splat)
 }
 
+/// One over what is positive, else 0.
+#[inline]
+pub fn or_none(x: f32x8) -> f32x8 {
+    x.simd_gt(f32x8::ZERO).bitselect(f32x8::ONE / x, f32x8::ZERO)
+}
+
 /// Whether two boxes are within `reach` metres of each other along each axis.
 #[inline]
 pub fn are_near([low, high]: [Vec3; 2], [lowest, highest]: [Vec3; 2], reach: f32) -> bool {

@@ -65,6 +65,8 @@ pub struct MeetingBody<'a> {
     pub ground: Option<GroundFriction<'a>>,
     /// Rigid bodies that it is attached to: they do not touch.
     pub attached: &'a [RigidBodyHandle],
+    /// Whether fixed bodies pushed it in the last step.
+    pub stood: bool,
     /// Whether its contacts are made here; else by rapier, but for those with bodies whose contacts are made here.
     pub own_contacts: bool,
 }
@@ -113,13 +115,14 @@ pub fn meet(
     refused: &mut Refused,
 ) -> (Vec<Meeting>, Vec<RigidCopy>) {
     let h = step.dt;
-    let mut found = Encounters::find(bodies, step, &mut memory.apart);
+    let mut stands: Vec<bool> = bodies.iter().map(|body| body.stood).collect();
+    let found = Encounters::find(bodies, step, &stands, &mut memory.apart);
 
     let around = Surroundings { query, bodies: rigid_bodies, colliders, drift: step.drift(), h };
     let mut copies = Copies::default();
     let mut contacts = Vec::new();
-    // The last sweep runs backwards: what is rigid has the last word.
-    let ground = found.add_rigid(bodies, &around, (&mut copies, &mut memory.parts, refused), &mut contacts);
+    // The last sweep runs backwards: of contacts, what is rigid has the last word.
+    let touched = found.add_rigid(bodies, &around, (&mut copies, &mut memory.parts, refused), &mut contacts);
     found.add_soft(bodies, &mut contacts);
 
     let mut meetings: Vec<Meeting> = bodies.iter().map(|_| Meeting::default()).collect();
@@ -130,10 +133,10 @@ pub fn meet(
         solve(&mut contacts, &mut velocities, h);
         found.take(bodies, &velocities.vertices, step.drift());
         rigid = velocities.rigid;
-        found.report(bodies, &contacts, &ground, &mut meetings);
+        found.report(bodies, &contacts, &touched, &mut meetings);
     }
-    let rigidly_held: Vec<usize> = ground.iter().map(|&(body, ..)| body).collect();
-    found.hold_apart(bodies, h, &rigidly_held, &mut meetings);
+    stands.iter_mut().zip(&meetings).for_each(|(stands, meeting)| *stands = !meeting.ground.is_empty());
+    found.hold_apart(bodies, step, &stands, &mut memory.apart, &mut meetings);
     (meetings, rigid)
 }
 

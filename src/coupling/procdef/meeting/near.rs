@@ -17,6 +17,14 @@ const FLOOR: f32 = 0.05;
 /// The part of a distance that is never used up in one step.
 const KEPT: f32 = 0.1;
 
+/// An exact normal and the way between nearest points are one direction from this cosine on.
+const SAME_WAY: f32 = 0.99;
+/// The square of the sine below which two edges are parallel.
+const PARALLEL: f32 = 1e-6;
+
+/// What is near of two bodies is not gathered beyond so many things: bodies that are so fast, and so fine, may get into each other.
+const MOST: usize = 1 << 20;
+
 /// A vertex holds several triangles of another body where it lies in a fold: their ways out differ by more than this cosine.
 const OTHER_WAY: f32 = 0.7;
 
@@ -96,12 +104,16 @@ fn vertex_near_triangles(v: u32, a: &Side<'_>, b: &Side<'_>, packs: &SomePacks, 
     let from = found.len();
     b.placed.triangles.within(packs, at, spare, |near, farthest| {
         let distance = near.way.length();
-        if distance <= TOUCHING * b.body.surface.edge {
+        let touching = distance <= TOUCHING * b.body.surface.edge;
+        if touching && near.normal == Vec3::ZERO || found.len() >= MOST {
             return;
         }
         let corners = b.body.surface.triangles[near.triangle];
         let inside = near.weights.iter().all(|w| *w > 0.0);
-        let normal = direction(near.way, distance, if inside { near.normal } else { Vec3::ZERO });
+        let normal = match touching {
+            true => near.normal,
+            false => direction(near.way, distance, if inside { near.normal } else { Vec3::ZERO }),
+        };
         let point = at - near.way;
         let [p, q, r] = corners.map(|c| normal.dot(point - y[c as usize]));
         let [wp, wq, wr] = near.weights;
@@ -111,7 +123,7 @@ fn vertex_near_triangles(v: u32, a: &Side<'_>, b: &Side<'_>, packs: &SomePacks, 
             weights: [1.0, -wp, -wq, -wr],
             normal,
             distance,
-            room: room(distance, skins),
+            room: room(near.way.dot(normal), skins),
             behind: [0.0, p, q, r],
             presses: distance - skins <= moves + farthest,
         });
@@ -122,7 +134,7 @@ fn vertex_near_triangles(v: u32, a: &Side<'_>, b: &Side<'_>, packs: &SomePacks, 
     for k in 1..own.len() {
         let (before, rest) = own.split_at_mut(k);
         let same = |other: &Near| other.presses && other.normal.dot(rest[0].normal) > OTHER_WAY;
-        rest[0].presses &= !before.iter().any(same);
+        rest[0].presses = rest[0].presses && !before.iter().any(same);
     }
 }
 
@@ -151,15 +163,15 @@ fn edge_near_edges([v, w]: [u32; 2], a: &Side<'_>, b: &Side<'_>, packs: &SomePac
     let spare = spare + moves;
     b.placed.edges.within(packs, [p, q], spare, |near, farthest| {
         let distance = near.way.length();
-        if distance <= TOUCHING * b.body.surface.edge {
+        if distance <= TOUCHING * b.body.surface.edge || found.len() >= MOST {
             return;
         }
         let [e, f] = b.body.surface.edges[near.edge];
         let [s, t] = near.at;
         // At an end a vertex is nearer to one of the triangles beside the edge, or as near.
         let crossed = s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0;
-        let across = if crossed { (q - p).cross(y[f as usize] - y[e as usize]) } else { Vec3::ZERO };
-        let normal = direction(near.way, distance, across.normalize_or_zero());
+        let exact = if crossed { across(q - p, y[f as usize] - y[e as usize]) } else { Vec3::ZERO };
+        let normal = direction(near.way, distance, exact);
         let (own, other) = (p + (q - p) * s, y[e as usize] + (y[f as usize] - y[e as usize]) * t);
         let own = [p, q].map(|x| normal.dot(x - own));
         let other = [e, f].map(|c| normal.dot(other - y[c as usize]));
@@ -169,7 +181,7 @@ fn edge_near_edges([v, w]: [u32; 2], a: &Side<'_>, b: &Side<'_>, packs: &SomePac
             weights: [1.0 - s, s, t - 1.0, -t],
             normal,
             distance,
-            room: room(distance, skins),
+            room: room(near.way.dot(normal), skins),
             behind: [own[0], own[1], other[0], other[1]],
             presses: crossed && distance - skins <= moves + farthest,
         });
@@ -178,14 +190,21 @@ fn edge_near_edges([v, w]: [u32; 2], a: &Side<'_>, b: &Side<'_>, packs: &SomePac
 
 /// How far two things that are `distance` apart may come.
 fn room(distance: f32, skins: f32) -> f32 {
-    (distance - FLOOR * skins).clamp(0.0, (1.0 - KEPT) * distance)
+    (distance - FLOOR * skins).min((1.0 - KEPT) * distance).max(0.0)
 }
 
-/// The unit way between nearest points; along `exact`, if that is a direction: what is at right angles to both does not lose its
-/// digits where they nearly touch.
+/// The unit way between nearest points; along `exact` where that is the same direction: what is at right angles to both things
+/// does not lose its digits where they nearly touch.
 fn direction(way: Vec3, distance: f32, exact: Vec3) -> Vec3 {
     let way = way / distance;
-    if way.dot(exact).abs() > 0.5 { exact * way.dot(exact).signum() } else { way }
+    if way.dot(exact).abs() > SAME_WAY { exact * way.dot(exact).signum() } else { way }
+}
+
+/// What is at right angles to two edges, unit; zero where they are so nearly parallel that its digits are lost.
+fn across(first: Vec3, second: Vec3) -> Vec3 {
+    let across = first.cross(second);
+    let least = PARALLEL * first.length_squared() * second.length_squared();
+    if across.length_squared() > least { across.normalize_or_zero() } else { Vec3::ZERO }
 }
 
 impl Near {

@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, splat, vector};
+use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, or_none, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -110,7 +110,6 @@ impl Pack {
     fn new(a: [f32x8; 3], b: [f32x8; 3], c: [f32x8; 3], farthest: f32x8) -> Self {
         let (u, v) = (minus(b, a), minus(c, a));
         let (uu, vv, uv) = (dot(u, u), dot(v, v), dot(u, v));
-        let or_none = |x: f32x8| x.simd_gt(f32x8::ZERO).bitselect(f32x8::ONE / x, f32x8::ZERO);
         let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let length = or_none(dot(normal, normal).sqrt());
         let third = uu + vv - uv - uv;
