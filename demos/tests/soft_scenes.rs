@@ -151,6 +151,22 @@ fn the_jellyfish_of_the_scene_stops_when_its_charts_stop() {
 }
 
 #[test]
+fn no_body_of_a_crowd_is_in_another_in_any_frame() {
+    for name in ["jellyfish-swarm", "worm-heap"] {
+        let mut simulation = open(name);
+        let end = simulation.scene.duration - 0.5 * simulation.scene.dt;
+        let mut held = 0;
+        while simulation.time() < end {
+            simulation.step();
+            let crossings: usize = simulation.soft_crossings().into_iter().sum();
+            assert_eq!(crossings, 0, "{name} at {} s", simulation.time());
+            held += simulation.soft_actors.iter().map(|actor| simulation.soft_report(actor).held).sum::<usize>();
+        }
+        println!("{name}: {held} vertices held back in all frames");
+    }
+}
+
+#[test]
 fn the_swarm_swims_up() {
     let mut simulation = open("jellyfish-swarm");
     let start: Vec<Vec3> = (0..31).map(|i| centre(&simulation, i)).collect();

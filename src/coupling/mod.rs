@@ -12,6 +12,7 @@ mod contact;
 mod find_contacts;
 mod gauge;
 mod guards;
+mod joined;
 mod literal;
 mod magnitude;
 mod obstacle;

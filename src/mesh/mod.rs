@@ -34,7 +34,7 @@ pub use obj_read::{MAX_OBJ_BYTES, ObjReport, load_obj, load_obj_with_report};
 pub use obj_write::write_obj;
 pub use tetrahedral_error::{TetrahedralError, TetrahedralFault};
 pub use tetrahedral_file::{TetrahedralFormat, load_tetrahedral, write_tetrahedral};
-pub use tetrahedral_fill::{FillReport, fill_surface};
+pub use tetrahedral_fill::{FillReport, fill_closely, fill_surface};
 pub use tetrahedral_mesh::{CELL_EDGES, CELL_FACES, FLAT_CELL, TetrahedralMesh, VertexLists};
 pub use tetrahedral_scan::MAX_TETRAHEDRAL_BYTES;
 pub use topology::{Edge, Orientation, Topology};

@@ -21,6 +21,8 @@ const SHARP_REACH: f32 = 0.45;
 /// How well a tetrahedral mesh fills a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FillReport {
+    /// The size of the cells that were taken, in metres.
+    pub cell_size: f32,
     /// The Hausdorff distance between the surface and the mesh's boundary in metres: the largest distance of a point of one
     /// from the other, both ways, taken at corners, along sharp edges and all over the triangles, a sixteenth of a cell apart.
     pub hausdorff: f32,
@@ -50,6 +52,24 @@ impl FillReport {
 /// The surface is open or not facing outward, the size of the cells is not positive or makes more than five million of them,
 /// nothing is left of the surface at this size.
 pub fn fill_surface(surface: &TriangleMesh, cell_size: f32) -> Result<(TetrahedralMesh, FillReport), TetrahedralError> {
+    fill_with_one_of(surface, &TRIED.map(|part| part * cell_size))
+}
+
+/// Sizes of cells that [`fill_closely`] tries, as parts of the size of the surface.
+const SIZES: [f32; 7] = [0.06, 0.048, 0.038, 0.03, 0.024, 0.019, 0.015];
+
+/// Fills a closed surface like [`fill_surface`], with cells of 6 % of its size ([`TriangleMesh::size`]), or where their boundary is
+/// farther than 2 % from it with smaller ones, by a fifth each time, down to 1.5 %. Where none of them follow, the nearest are taken.
+///
+/// # Errors
+/// Those of [`fill_surface`].
+pub fn fill_closely(surface: &TriangleMesh) -> Result<(TetrahedralMesh, FillReport), TetrahedralError> {
+    fill_with_one_of(surface, &SIZES.map(|part| part * surface.size()))
+}
+
+/// Fills a surface with cells of the first size, in metres, of which the boundary follows it, or else of that which is nearest. The
+/// sizes get smaller.
+fn fill_with_one_of(surface: &TriangleMesh, sizes: &[f32]) -> Result<(TetrahedralMesh, FillReport), TetrahedralError> {
     let topology = Topology::of(surface);
     if !topology.is_closed() {
         return Err(TetrahedralError::Surface("it is not closed"));
@@ -58,22 +78,30 @@ pub fn fill_surface(surface: &TriangleMesh, cell_size: f32) -> Result<(Tetrahedr
         return Err(TetrahedralError::Surface("its triangles do not face outward"));
     }
     let bounds = measure::bounding_box(&surface.positions);
-    let extent = bounds.maxs - bounds.mins;
-    // Twelve cells a cube.
-    let cells = 12.0 * extent.to_array().map(|e| f64::from(e) / f64::from(cell_size) + 3.0).iter().product::<f64>();
-    if !(cell_size > 0.0 && cells < MOST_CELLS) {
-        return Err(TetrahedralError::CellSize { cell_size, cells });
-    }
-    let target = Target::of(surface)?;
-    let mut best = fill(surface, &target, TRIED[0] * cell_size);
-    for part in &TRIED[1..] {
-        let known = best.as_ref().map_or(f32::INFINITY, |(_, report)| report.hausdorff);
-        if best.as_ref().is_ok_and(|(_, report)| report.follows()) {
-            break;
+    let extent = (bounds.maxs - bounds.mins).to_array();
+    let mut target = None;
+    let mut best = Err(TetrahedralError::Surface("it has no size"));
+    for &size in sizes {
+        // Twelve cells a cube.
+        let cells = 12.0 * extent.map(|e| f64::from(e) / f64::from(size) + 3.0).iter().product::<f64>();
+        if !(size > 0.0 && cells < MOST_CELLS) {
+            return best.or(Err(TetrahedralError::CellSize { cell_size: size, cells }));
         }
-        let another = fill(surface, &target, part * cell_size);
-        if another.as_ref().is_ok_and(|(_, report)| report.hausdorff < known) {
-            best = another;
+        let target = match &mut target {
+            Some(target) => target,
+            None => target.insert(Target::of(surface)?),
+        };
+        let known = best.as_ref().map_or(f32::INFINITY, |(_, report): &(_, FillReport)| report.hausdorff);
+        match fill(surface, target, size) {
+            Ok((mesh, report)) if report.hausdorff < known => {
+                let follows = report.follows();
+                best = Ok((mesh, report));
+                if follows {
+                    break;
+                }
+            }
+            Err(error) if best.is_err() => best = Err(error),
+            _ => {}
         }
     }
     best
@@ -103,6 +131,7 @@ fn fill(
     let hausdorff = hausdorff(&filling, &filling.boundary(), target, SPACING * cell_size * 0.25);
     let mesh = TetrahedralMesh::new(filling.positions, filling.cells)?;
     let report = FillReport {
+        cell_size,
         hausdorff,
         relative: hausdorff / size,
         dihedral_angles: mesh.dihedral_angles(),

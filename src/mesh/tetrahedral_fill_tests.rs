@@ -250,3 +250,20 @@ fn what_cannot_be_filled_is_refused_with_the_reason() {
     open.triangles.pop();
     assert!(message(&open, 0.2).contains("not closed"));
 }
+
+#[test]
+fn real_meshes_are_filled_within_two_percent_without_a_size_of_cells() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/meshes");
+    for name in ["spot.obj", "elephant.obj"] {
+        let path = folder.join(name);
+        if !path.exists() {
+            println!("skipped: {} is not there", path.display());
+            continue;
+        }
+        let surface = crate::mesh::load_obj(path).expect("a surface");
+        let (mesh, report) = fill_closely(&surface).expect("cells");
+        println!("{name}: {} cells of {} of its size, {report:?}", mesh.cells.len(), report.cell_size / surface.size());
+        assert!(report.follows(), "{name}: {report:?}");
+        assert!((report.volume_ratio - 1.0).abs() < 0.02, "{name}: {report:?}");
+    }
+}

@@ -27,7 +27,7 @@ pub enum ContactKind {
     /// Rapier, between surfaces: exact, and dear where many bodies meet.
     #[default]
     Surfaces,
-    /// This crate, between vertices and what they meet: for crowds. The body's collider stays, for rays and the like, but
+    /// This crate, between vertices, edges and what they meet: for crowds. Bodies that are apart stay apart. The body's collider stays, for rays and the like, but
     /// rapier lets it touch nothing, and it does not touch itself.
     Vertices,
 }

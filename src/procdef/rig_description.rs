@@ -8,9 +8,10 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RigDescription {
-    /// The mesh: tetrahedra, or with `cell_size` a closed surface that is filled with them. Relative to the rig file.
+    /// The mesh: tetrahedra, or a closed surface in an OBJ file that is filled with them. Relative to the rig file.
     pub mesh: PathBuf,
-    /// Edge length of the cells that a surface is filled with.
+    /// Edge length of the cells that a surface is filled with; without it the largest that follow the surface within 2 % of its
+    /// size ([`crate::mesh::fill_closely`]).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cell_size: Option<f32>,
     /// A detailed surface that is drawn in the place of the boundary; an OBJ file.

@@ -140,9 +140,6 @@ pub enum MotionRigFaultKind {
     /// A cell size with a mesh that has its cells.
     #[error("is for a closed surface in an OBJ file; this mesh has its cells already")]
     CellSize,
-    /// A surface without a cell size.
-    #[error("is a surface; set `cell_size`, the edge length of the cells that it is filled with")]
-    NoCellSize,
     /// A tool that paints nothing.
     #[error("{0}")]
     Paint(#[from] PaintError),

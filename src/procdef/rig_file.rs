@@ -5,7 +5,8 @@ use super::rig_description::RigDescription;
 use super::rig_fault::{MotionRigFault, MotionRigFaultKind as Kind, MotionRigPlace as Place};
 use crate::files::{TomlError, TomlText};
 use crate::mesh::{
-    AtomicFile, FillReport, TetrahedralError, TetrahedralMesh, TriangleMesh, fill_surface, load_obj, load_tetrahedral,
+    AtomicFile, FillReport, TetrahedralError, TetrahedralMesh, TriangleMesh, fill_closely, fill_surface, load_obj,
+    load_tetrahedral,
 };
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -90,17 +91,24 @@ fn mesh(
     match (is_surface, description.cell_size) {
         (false, None) => load_tetrahedral(path).map(|mesh| (mesh, None)).map_err(|e| fault(Place::root("mesh"), e)),
         (false, Some(_)) => Err(fault(Place::root("cell_size"), Kind::CellSize)),
-        (true, None) => Err(fault(Place::root("mesh"), Kind::NoCellSize)),
-        (true, Some(cell)) => {
-            super::rig_checks::cell_size(cell)?;
+        (true, cell_size) => {
+            if let Some(cell) = cell_size {
+                super::rig_checks::cell_size(cell)?;
+            }
+            let unusable = |e| fault(Place::root("mesh"), e);
             let surface = load_obj(path).map_err(|e| fault(Place::root("mesh"), e))?;
-            let (mesh, report) = fill_surface(&surface, cell).map_err(|e| fault(Place::root("mesh"), e))?;
+            let (mesh, report) = match cell_size {
+                Some(cell) => fill_surface(&surface, cell),
+                None => fill_closely(&surface),
+            }
+            .map_err(unusable)?;
             if report.follows() {
                 return Ok((mesh, Some(report)));
             }
             let (distance, percent) = (report.hausdorff, 100.0 * report.relative);
-            let error = TetrahedralError::NotFollowed { cell_size: cell, distance, percent };
-            Err(fault(Place::root("cell_size"), error))
+            let error =
+                TetrahedralError::NotFollowed { cell_size: cell_size.unwrap_or(report.cell_size), distance, percent };
+            Err(fault(Place::root(if cell_size.is_some() { "cell_size" } else { "mesh" }), error))
         }
     }
 }

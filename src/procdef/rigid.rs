@@ -51,20 +51,13 @@ pub(super) fn keep_momentum(mass: &[f32], x: &[f32x4], d: &mut [f32x4]) {
     }
 }
 
-/// Shifts the ways `d = g - x` so that `Σ m d = 0`.
+/// Shifts the differences `d = g - x` so that `Σ m d = 0` to the rounding of a sum.
 ///
-/// One pass of matching does this by itself up to rounding, which has a direction of its own: in each step it pushes a body at rest the
-/// same way, and at 480 steps a second the body had a centimetre a second after one.
+/// One pass of matching keeps the momentum, but rounds the goals of each vertex: thousands of steps would add that up.
 pub(super) fn keep_linear_momentum(mass: &[f32], d: &mut [f32x4]) {
-    let (mut total, mut way) = (0.0f64, DVec3::ZERO);
-    for (mass, d) in mass.chunks(RUN).zip(d.chunks(RUN)) {
-        let part = mass.iter().zip(d).fold(f32x4::ZERO, |s, (&m, &d)| s + d * f32x4::splat(m));
-        way += vec3(part).as_dvec3();
-        total += f64::from(mass.iter().sum::<f32>());
-    }
-    let shift = (way / total).as_vec3();
-    if shift.is_finite() {
-        let shift = wide(shift);
+    let (_, mean) = centre(mass, d);
+    let shift = wide(mean.as_vec3());
+    if vec3(shift).is_finite() {
         d.iter_mut().for_each(|d| *d -= shift);
     }
 }

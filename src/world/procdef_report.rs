@@ -19,6 +19,8 @@ pub struct ProcDefBodyReport {
     /// How deep its deepest vertex was in something, with the gaps that are kept, in metres: of bodies whose contacts are those
     /// of vertices, and what these bodies meet.
     pub deepest: f32,
+    /// How many of its vertices were held back, because contacts alone would have let them into another body.
+    pub held: usize,
     /// How many vertices touch fixed bodies. Counted only where the body has a trigger or directed friction.
     pub on_ground: usize,
 }

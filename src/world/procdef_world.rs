@@ -9,10 +9,9 @@ use rapier3d::pipeline::PhysicsWorld;
 
 use super::procdef_report::ProcDefStepReport;
 use super::procdef_view::ProcDefView;
-use crate::coupling::PartCache;
 use crate::coupling::procdef::{
-    ContactSurface, Grip, GroundDirections, Meeting, ProcDefSets, ProcDefStart, WaterRegion, attach_to,
-    spawn_attachment, spawn_soft_body,
+    ContactSurface, Grip, GroundDirections, Meeting, MeetingMemory, ProcDefSets, ProcDefStart, WaterRegion, attach_to,
+    crossings, spawn_attachment, spawn_soft_body,
 };
 use crate::math::{Mat3, Vec3};
 use crate::procdef::{ContactTrigger, Motion, ProcDefBody, ProcDefModel};
@@ -85,8 +84,8 @@ pub struct ProcDefWorld {
     pub water: Vec<WaterRegion>,
     pub(super) entries: Arena<ProcDefEntry>,
     pub(super) report: ProcDefStepReport,
-    /// The convex parts of colliders that vertices met.
-    pub(super) parts: PartCache,
+    /// What vertices met.
+    pub(super) meetings: MeetingMemory,
 }
 
 impl ProcDefWorld {
@@ -188,6 +187,14 @@ impl ProcDefWorld {
     /// All bodies.
     pub fn iter(&self) -> impl Iterator<Item = (ProcDefHandle, &ProcDefBody)> {
         self.entries.iter().map(|(index, entry)| (ProcDefHandle(index), &entry.body))
+    }
+
+    /// How many edges of each body go through another's boundary: none where bodies are apart. For measuring; a step does not ask
+    /// it, and it takes longer than one.
+    pub fn crossings(&self) -> Vec<(ProcDefHandle, usize)> {
+        let bodies: Vec<_> = self.entries.iter().map(|(_, e)| (e.body.positions(), &e.model.boundary[..])).collect();
+        let handles = self.entries.iter().map(|(index, _)| ProcDefHandle(index));
+        handles.zip(crossings(&bodies)).collect()
     }
 
     /// The excitation of each vertex of a body, in [-1, 1]: -1 is full contraction.

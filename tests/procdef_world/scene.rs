@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pliant::coupling::procdef::{ProcDefStart, WaterRegion};
 use pliant::math::{Pose, Vec3};
-use pliant::procdef::{ProcDefBody, ProcDefModel, load_motion_rig};
+use pliant::procdef::{ContactKind, ProcDefBody, ProcDefModel, load_motion_rig};
 use pliant::world::{ProcDefHandle, ProcDefWorld};
 use rapier3d::prelude::*;
 
@@ -19,6 +19,13 @@ pub fn model(name: &str) -> Arc<ProcDefModel> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/rigs");
     let file = load_motion_rig(folder.join(format!("{name}.toml"))).unwrap_or_else(|e| panic!("{e}"));
     Arc::new(ProcDefModel::from_file(&file).expect("a model"))
+}
+
+/// A kind of body whose contacts are made by this crate.
+pub fn with_vertices(name: &str) -> Arc<ProcDefModel> {
+    let mut kind = (*model(name)).clone();
+    kind.contacts = ContactKind::Vertices;
+    Arc::new(kind)
 }
 
 impl Scene {

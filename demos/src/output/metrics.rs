@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// First line of the table.
-pub const METRICS_HEADER: &str = "frame,body,volume_ratio,max_depth_before,max_depth_after,max_piercing,max_gap,vertices_inside,time_coherence,passes,steps,ms_rigid,ms_springs,ms_contact,ms_deform";
+pub const METRICS_HEADER: &str = "frame,body,volume_ratio,max_depth_before,max_depth_after,max_piercing,max_gap,max_pair_depth,vertices_inside,time_coherence,passes,steps,ms_rigid,ms_springs,ms_contact,ms_deform";
 
 /// What is measured of one body in one frame, in the order of the columns.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -27,6 +27,8 @@ pub struct MetricsRow {
     pub max_piercing: f32,
     /// Widest gap to an obstacle that is touched, as a part of the body's size.
     pub max_gap: f32,
+    /// Deepest overlap with another elastic body, or of two segments of its own, that is left, as a part of the body's size.
+    pub max_pair_depth: f32,
     /// Vertices that are still inside an obstacle.
     pub vertices_inside: usize,
     /// Change of the cancellation since the frame before, over the relative motion.
@@ -108,7 +110,7 @@ mod tests {
         table.write(&row).unwrap();
         table.finish().unwrap();
         let text = fs::read_to_string(&path).unwrap();
-        let rows = "3,\"a \"\"b\"\", c\",1.0,0.0,0.0,0.0,0.0,0,0.0,0,0,0.0,0.0,0.0,0.0\n0,d,0.0,0.0,0.0,0.0,0.25,0,0.0,2,0,0.0,0.0,0.0,1.5\n";
+        let rows = "3,\"a \"\"b\"\", c\",1.0,0.0,0.0,0.0,0.0,0.0,0,0.0,0,0,0.0,0.0,0.0,0.0\n0,d,0.0,0.0,0.0,0.0,0.25,0.0,0,0.0,2,0,0.0,0.0,0.0,1.5\n";
         assert_eq!(text, format!("{METRICS_HEADER}\n{rows}"));
     }
 

@@ -19,6 +19,10 @@ pub struct SoftMetricsRow {
     pub volume_ratio: f64,
     /// Cells that are inside out.
     pub inverted: usize,
+    /// Edges of its boundary that go through another body's.
+    pub crossings: usize,
+    /// Vertices that were held back in the last substep, because contacts alone would have let them into another body.
+    pub held: usize,
     /// Least excitation of all vertices, from -1 for full contraction.
     pub contraction: f32,
     /// Largest excitation of all vertices, to 1 for full expansion.
@@ -42,4 +46,4 @@ pub struct SoftMetricsRow {
 }
 
 /// First line of the table.
-pub const SOFT_METRICS_HEADER: &str = "frame,body,x,y,z,volume_ratio,inverted,contraction,expansion,stimuli,felt,on_ground,frozen,ms_rapier,ms_exchange,ms_contact,ms_drive";
+pub const SOFT_METRICS_HEADER: &str = "frame,body,x,y,z,volume_ratio,inverted,crossings,held,contraction,expansion,stimuli,felt,on_ground,frozen,ms_rapier,ms_exchange,ms_contact,ms_drive";

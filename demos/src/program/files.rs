@@ -85,7 +85,7 @@ impl Files {
     }
 
     /// Appends the state after a step.
-    pub fn write(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<()> {
+    pub fn write(&mut self, frame: usize, simulation: &Simulation, crossings: &[usize]) -> anyhow::Result<()> {
         let poses = simulation.obstacle_poses();
         let things: Vec<_> = simulation.soft_actors.iter().map(|actor| simulation.thing_poses(actor)).collect();
         for (part, (owner, local)) in self.parts.iter().enumerate() {
@@ -95,7 +95,7 @@ impl Files {
             };
             self.obstacles.write(frame, part, &(pose * *local))?;
         }
-        self.write_soft(frame, simulation)?;
+        self.write_soft(frame, simulation, crossings)?;
         let bodies = simulation.actors.iter().filter_map(|a| Some((a, simulation.deformation.get(a.handle)?)));
         for ((actor, body), cache) in bodies.zip(&mut self.caches) {
             cache.write_frame(body.positions())?;
@@ -108,6 +108,7 @@ impl Files {
                 max_depth_after: report.penetration.max_depth_after,
                 max_piercing: report.penetration.max_piercing,
                 max_gap: report.penetration.max_gap,
+                max_pair_depth: report.max_pair_depth,
                 vertices_inside: report.penetration.vertices_inside as usize,
                 time_coherence: report.penetration.coherence.ratio,
                 passes: report.passes as usize,
@@ -122,13 +123,13 @@ impl Files {
     }
 
     /// Appends the bodies that move by themselves.
-    fn write_soft(&mut self, frame: usize, simulation: &Simulation) -> anyhow::Result<()> {
-        for (actor, cache) in simulation.soft_actors.iter().zip(&mut self.soft_caches) {
+    fn write_soft(&mut self, frame: usize, simulation: &Simulation, crossings: &[usize]) -> anyhow::Result<()> {
+        for ((actor, cache), &crossings) in simulation.soft_actors.iter().zip(&mut self.soft_caches).zip(crossings) {
             let Some(body) = simulation.creatures.get(actor.handle) else { continue };
             actor.kind.skin.deform(body.positions(), &mut self.deformed)?;
             cache.write_frame(&self.deformed.positions)?;
             if let Some(table) = &mut self.soft_metrics {
-                table.write(&soft_row(frame, simulation, actor))?;
+                table.write(&SoftMetricsRow { crossings, ..soft_row(frame, simulation, actor) })?;
             }
         }
         Ok(())
@@ -156,6 +157,8 @@ fn soft_row(frame: usize, simulation: &Simulation, actor: &SoftActor) -> SoftMet
         z: figures.centre.z,
         volume_ratio: figures.volume_ratio,
         inverted: figures.inverted,
+        crossings: 0,
+        held: report.held,
         contraction: figures.excitation[0],
         expansion: figures.excitation[1],
         stimuli: figures.stimuli,

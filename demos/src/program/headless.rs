@@ -28,8 +28,9 @@ pub fn run(args: &RunArgs) -> anyhow::Result<()> {
     let mut summary = Summary::default();
     for frame in 0..frames as usize {
         simulation.step();
-        summary.add(&simulation);
-        files.write(frame, &simulation)?;
+        let crossings = simulation.soft_crossings();
+        summary.add(&simulation, &crossings);
+        files.write(frame, &simulation, &crossings)?;
         if let Some(drawing) = pictures.as_mut().filter(|p| p.wants(frame)) {
             let clock = Instant::now();
             match drawing.draw(frame, &simulation)? {

@@ -5,6 +5,7 @@ mod blend;
 mod choose;
 mod compute_skin;
 mod creases;
+mod device_skin;
 mod directions;
 mod fields;
 mod files;

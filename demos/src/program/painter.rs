@@ -58,7 +58,7 @@ impl Painter {
             passes: compute.then(|| Passes::new(renderer.device())),
             trouble: None,
             skins: Vec::new(),
-            soft: SoftPainter::new(renderer, simulation, None),
+            soft: SoftPainter::new(renderer, simulation, compute),
             obstacles,
             region: looks::region(simulation, ground.as_ref()),
             ground,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{Mat4, Vec3};
 
 use super::creases::creased;
+use super::device_skin::SkinPasses;
 use super::looks;
 use super::moment::SoftMoment;
 use super::overlays::Shown;
@@ -26,6 +27,8 @@ type Things = Vec<(MeshId, Material)>;
 /// Draws the bodies of one simulation that move by themselves.
 pub struct SoftPainter {
     cut: Option<Cut>,
+    /// What deforms skins on the device, if it is so wished.
+    passes: Option<Arc<SkinPasses>>,
     skins: Vec<SoftSkin>,
     /// For each body its rigid things.
     things: Vec<Things>,
@@ -33,17 +36,31 @@ pub struct SoftPainter {
 }
 
 impl SoftPainter {
-    /// Makes the meshes.
-    pub fn new(renderer: &mut Renderer, simulation: &Simulation, cut: Option<Cut>) -> Self {
+    /// Makes the meshes; with `compute`, skins are deformed on the device.
+    pub fn new(renderer: &mut Renderer, simulation: &Simulation, compute: bool) -> Self {
+        let wished = compute && !simulation.soft_actors.is_empty();
+        let passes = wished.then(|| Arc::new(SkinPasses::new(renderer.device())));
+        Self::with(renderer, simulation, None, passes)
+    }
+
+    fn with(
+        renderer: &mut Renderer,
+        simulation: &Simulation,
+        cut: Option<Cut>,
+        passes: Option<Arc<SkinPasses>>,
+    ) -> Self {
         let mut looks: Vec<(Arc<SoftKind>, Arc<SoftLook>)> = Vec::new();
         let (mut skins, mut things) = (Vec::new(), Vec::new());
         let mut meshes: Vec<(Arc<SoftKind>, Things)> = Vec::new();
         for (actor, body) in simulation.soft_actors.iter().zip(&simulation.scene.soft_bodies) {
             let known = looks.iter().find(|(kind, _)| cut.is_none() && Arc::ptr_eq(kind, &actor.kind));
-            let look = known
-                .map(|(_, look)| look.clone())
-                .unwrap_or_else(|| Arc::new(SoftLook::new(&actor.kind, cut, &body.pose, simulation.scene.camera.eye)));
-            skins.push(SoftSkin::new(renderer, &look));
+            let look = known.map(|(_, look)| look.clone()).unwrap_or_else(|| {
+                let look = SoftLook::new(&actor.kind, cut, &body.pose, simulation.scene.camera.eye);
+                Arc::new(if passes.is_some() { look.on(renderer.device()) } else { look })
+            });
+            // What one sees through is sorted in memory.
+            let wanted = passes.as_ref().filter(|_| looks::soft_body(actor).alpha >= 1.0);
+            skins.push(SoftSkin::new(renderer, &look, wanted));
             looks.push((actor.kind.clone(), look));
             let known = meshes.iter().find(|(kind, _)| Arc::ptr_eq(kind, &actor.kind)).map(|(_, known)| known.clone());
             let made = known.unwrap_or_else(|| self::things(renderer, &actor.kind));
@@ -51,7 +68,7 @@ impl SoftPainter {
             things.push(made);
         }
         let water = water::boxes(renderer, &simulation.scene);
-        Self { cut, skins, things, water }
+        Self { cut, passes, skins, things, water }
     }
 
     /// The items at the place `alpha` between two moments; what is drawn over them is added to the overlay.
@@ -65,7 +82,7 @@ impl SoftPainter {
     ) -> Vec<Item> {
         if shown.cut != self.cut {
             self.skins.iter().for_each(|skin| renderer.remove_mesh(skin.mesh()));
-            *self = Self::new(renderer, simulation, shown.cut);
+            *self = Self::with(renderer, simulation, shown.cut, self.passes.take());
         }
         let mut items = Vec::new();
         let [from, to] = moments;
@@ -160,6 +177,33 @@ mod tests {
     }
 
     #[test]
+    fn skins_that_are_deformed_on_the_device_look_like_those_from_memory() {
+        let Some(gpu) = device_or_skip("skins_that_are_deformed_on_the_device_look_like_those_from_memory") else {
+            return;
+        };
+        for scene in ["worm-crawl", "bending-bar"] {
+            let mut simulation = choose::simulation(scene, 0).unwrap();
+            (0..40).for_each(|_| simulation.step());
+            let now = Moment::of(&simulation);
+            let take = |compute, field| {
+                let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, SIZE);
+                let mut painter = Painter::new(&mut renderer, &simulation, compute);
+                painter.shown.field = field;
+                let target = Picture::new(&gpu.device, SIZE);
+                let camera = looks::camera(&simulation.scene.camera);
+                let frame = painter.frame(&mut renderer, &simulation, [&now, &now], 1.0, camera);
+                target.take(&mut renderer, &frame).unwrap()
+            };
+            for field in [Field::Plain, Field::Excitation] {
+                let apart = difference(&take(true, field), &take(false, field));
+                assert!(apart < 0.05, "{scene}: {apart} of 255 in the mean");
+            }
+            let painted = difference(&take(true, Field::Plain), &take(true, Field::Excitation));
+            assert!(painted > 0.2, "{scene}: the paint is seen, {painted}");
+        }
+    }
+
+    #[test]
     fn a_translucent_body_is_drawn_from_far_to_near() {
         let Some(gpu) = device_or_skip("a_translucent_body_is_drawn_from_far_to_near") else { return };
         let simulation = choose::simulation("jellyfish", 0).unwrap();
@@ -167,7 +211,7 @@ mod tests {
         let mut renderer = Renderer::new(&gpu.device, &gpu.queue, picture::FORMAT, SIZE);
         let look =
             Arc::new(SoftLook::new(&simulation.soft_actors[0].kind, None, &pliant::math::Pose::IDENTITY, Vec3::Z));
-        let mut skin = SoftSkin::new(&mut renderer, &look);
+        let mut skin = SoftSkin::new(&mut renderer, &look, None);
         skin.show(&renderer, [&now.soft[0], &now.soft[0]], 1.0, Field::Plain, &mut Overlay::default()).unwrap();
         for eye in [Vec3::Z * 5.0, Vec3::new(-4.0, 2.0, 0.0)] {
             let away: Vec<f32> = skin.sort(&renderer, eye).iter().map(|(away, _)| *away).collect();

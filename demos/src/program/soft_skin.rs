@@ -1,13 +1,17 @@
 //! The surface of a body that moves by itself: its skin or a section, deformed with the cells and painted.
+//!
+//! Skins are deformed on the device, sections and what is drawn in the order of its triangles in memory.
 
 use std::sync::Arc;
 
 use glam::Vec3;
+use pliant::gpu::GpuEmbeddedSkin;
 use pliant::math::Pose;
 use pliant::mesh::{TriangleMesh, weld};
 use pliant::procdef::{DeformedSkin, EmbeddedSkin};
 
 use super::creases::creased;
+use super::device_skin::{DeviceSkin, SkinPasses};
 use super::directions::Directions;
 use super::fields::Field;
 use super::moment::SoftMoment;
@@ -23,6 +27,8 @@ pub struct SoftLook {
     kind: Arc<SoftKind>,
     surface: Surface,
     directions: Directions,
+    /// The skin on the device, if it has a place there.
+    device: Option<GpuEmbeddedSkin>,
 }
 
 enum Surface {
@@ -36,13 +42,20 @@ enum Surface {
 /// One body on the device, and the buffers to bring it up to date.
 pub struct SoftSkin {
     look: Arc<SoftLook>,
-    mesh: MeshId,
+    place: SkinPlace,
     cells: Vec<Vec3>,
     excitations: Vec<f32>,
     deformed: DeformedSkin,
     values: Vec<f32>,
     paint: Vec<Paint>,
     order: Vec<(f32, [u32; 3])>,
+}
+
+enum SkinPlace {
+    /// Deformed in memory, and uploaded.
+    Memory(MeshId),
+    /// Deformed where it is drawn.
+    Device(Box<DeviceSkin>),
 }
 
 impl SoftLook {
@@ -56,7 +69,13 @@ impl SoftLook {
             _ if kind.has_skin => Surface::Skin,
             _ => sharp(kind).map_or(Surface::Skin, |skin| Surface::Creased(Box::new(skin))),
         };
-        Self { kind: kind.clone(), directions: Directions::new(&kind.model), surface }
+        Self { kind: kind.clone(), directions: Directions::new(&kind.model), surface, device: None }
+    }
+
+    /// The same with its skin on a device; as it was where that has no place for it.
+    pub fn on(self, device: &wgpu::Device) -> Self {
+        let skin = self.skin().and_then(|skin| GpuEmbeddedSkin::new(device, skin).ok());
+        Self { device: skin, ..self }
     }
 
     fn skin(&self) -> Option<&EmbeddedSkin> {
@@ -118,17 +137,24 @@ fn sharp(kind: &SoftKind) -> Option<EmbeddedSkin> {
 }
 
 impl SoftSkin {
-    /// Makes the mesh of a body.
-    pub fn new(renderer: &mut Renderer, look: &Arc<SoftLook>) -> Self {
-        let count = look.vertex_count();
-        let data = MeshData {
-            positions: vec![Vec3::ZERO; count],
-            normals: vec![Vec3::Y; count],
-            indices: look.triangles().as_flattened().to_vec(),
+    /// Makes the mesh of a body; with passes it is deformed by them, if its look is on the device.
+    pub fn new(renderer: &mut Renderer, look: &Arc<SoftLook>, passes: Option<&Arc<SkinPasses>>) -> Self {
+        let place = match (passes, &look.device) {
+            (Some(passes), Some(skin)) => {
+                SkinPlace::Device(Box::new(DeviceSkin::new(renderer, passes, skin, look.triangles())))
+            }
+            _ => {
+                let count = look.vertex_count();
+                SkinPlace::Memory(renderer.add_mesh(&MeshData {
+                    positions: vec![Vec3::ZERO; count],
+                    normals: vec![Vec3::Y; count],
+                    indices: look.triangles().as_flattened().to_vec(),
+                }))
+            }
         };
         Self {
             look: look.clone(),
-            mesh: renderer.add_mesh(&data),
+            place,
             cells: Vec::new(),
             excitations: Vec::new(),
             deformed: DeformedSkin::default(),
@@ -140,19 +166,24 @@ impl SoftSkin {
 
     /// Its mesh on the device.
     pub fn mesh(&self) -> MeshId {
-        self.mesh
+        match &self.place {
+            SkinPlace::Memory(mesh) => *mesh,
+            SkinPlace::Device(skin) => skin.mesh(),
+        }
     }
 
     /// Brings the triangles into the order in which they are seen from `eye`, the farthest first: a translucent body is
-    /// drawn in it. The triangles, each with the square of its distance (times nine).
+    /// drawn in it. The triangles, each with the square of its distance (times nine); none of a skin that is deformed on the
+    /// device, whose places are not known.
     pub fn sort(&mut self, renderer: &Renderer, eye: Vec3) -> &[(f32, [u32; 3])] {
+        self.order.clear();
+        let SkinPlace::Memory(mesh) = self.place else { return &self.order };
         let x = &self.deformed.positions;
         let away = |t: &[u32; 3]| t.iter().map(|&v| x[v as usize]).sum::<Vec3>().distance_squared(3.0 * eye);
-        self.order.clear();
         self.order.extend(self.look.triangles().iter().map(|t| (away(t), *t)));
         self.order.sort_by(|a, b| b.0.total_cmp(&a.0));
         let sorted: Vec<[u32; 3]> = self.order.iter().map(|(_, t)| *t).collect();
-        renderer.write_indices(self.mesh, sorted.as_flattened());
+        renderer.write_indices(mesh, sorted.as_flattened());
         &self.order
     }
 
@@ -171,18 +202,24 @@ impl SoftSkin {
         self.cells.extend(from.positions.iter().zip(&to.positions).map(|(a, b)| a.lerp(*b, alpha)));
         self.excitations.clear();
         self.excitations.extend(from.excitations.iter().zip(&to.excitations).map(|(a, b)| a + alpha * (b - a)));
-        if !self.look.deform(&self.cells, &mut self.deformed) {
-            return None;
-        }
         self.paint.clear();
         match field.values(&self.look.kind, &self.excitations).filter(|values| values.len() == self.cells.len()) {
             Some(values) => {
                 self.look.spread(values, &mut self.values);
                 self.paint.extend(self.values.iter().map(|value| field.paint(*value)));
             }
-            None => self.paint.resize(self.deformed.positions.len(), Paint::default()),
+            None if matches!(self.place, SkinPlace::Device(_)) => {}
+            None => self.paint.resize(self.look.vertex_count(), Paint::default()),
         }
-        renderer.write_painted_mesh(self.mesh, &self.deformed.positions, &self.deformed.normals, &self.paint);
+        match &mut self.place {
+            SkinPlace::Device(skin) => skin.show(renderer, &self.cells, &self.paint).ok()?,
+            SkinPlace::Memory(mesh) => {
+                if !self.look.deform(&self.cells, &mut self.deformed) {
+                    return None;
+                }
+                renderer.write_painted_mesh(*mesh, &self.deformed.positions, &self.deformed.normals, &self.paint);
+            }
+        }
         if field == Field::Directions {
             let model = &self.look.kind.model;
             match &self.look.surface {
@@ -193,6 +230,6 @@ impl SoftSkin {
                 _ => self.look.directions.draw_boundary(model, &self.cells, overlay),
             }
         }
-        Some(self.mesh)
+        Some(self.mesh())
     }
 }

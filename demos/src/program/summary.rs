@@ -44,6 +44,7 @@ struct SoftSummary {
     unfilled: Option<f32>,
     /// Most cells inside out at once.
     inverted: usize,
+    crossings: usize,
     frames_frozen: u64,
     /// Where the centre of all was after the first step, and where it is.
     way: Option<[Vec3; 2]>,
@@ -52,8 +53,8 @@ struct SoftSummary {
 }
 
 impl Summary {
-    /// Takes in the state after a step.
-    pub fn add(&mut self, simulation: &Simulation) {
+    /// Takes in the state after a step, and how many edges of each soft actor go through another.
+    pub fn add(&mut self, simulation: &Simulation, crossings: &[usize]) {
         self.frames += 1;
         self.bodies = simulation.actors.len();
         self.seconds = simulation.time();
@@ -77,6 +78,7 @@ impl Summary {
             *sum += stage;
         }
         self.soft.add(simulation);
+        self.soft.crossings = self.soft.crossings.max(crossings.iter().sum());
         self.speed = fastest(simulation);
         self.still_since = match self.still_since {
             _ if self.speed > STILL => None,
@@ -131,6 +133,9 @@ impl SoftSummary {
         }
         if let Some(distance) = self.unfilled {
             write!(f, ", up to {:.2} % of the size from the surface that they fill", 100.0 * distance)?;
+        }
+        if self.bodies > 1 {
+            write!(f, ", at most {} edges through another body", self.crossings)?;
         }
         if self.frames_frozen > 0 {
             write!(f, "; {} frames with a FROZEN one", self.frames_frozen)?;

@@ -61,6 +61,21 @@ mod tests {
     }
 
     #[test]
+    fn every_compute_shader_of_the_program_is_valid() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/program");
+        let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+        let shaders: Vec<_> = files.filter(|path| path.extension().is_some_and(|e| e == "wgsl")).collect();
+        assert!(shaders.len() >= 2, "{shaders:?}");
+        for path in shaders {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let module = naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+            let mut validator =
+                naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty());
+            assert!(validator.validate(&module).is_ok(), "{}", path.display());
+        }
+    }
+
+    #[test]
     fn no_shader_file_is_left_out() {
         let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/render/shaders");
         for file in std::fs::read_dir(folder).unwrap() {

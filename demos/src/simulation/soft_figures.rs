@@ -21,6 +21,15 @@ pub struct SoftFigures {
 }
 
 impl Simulation {
+    /// How many edges of each soft actor go through the boundary of another; 0 for one that is gone.
+    pub fn soft_crossings(&self) -> Vec<usize> {
+        if self.soft_actors.len() < 2 {
+            return vec![0; self.soft_actors.len()];
+        }
+        let counts: std::collections::BTreeMap<_, _> = self.creatures.crossings().into_iter().collect();
+        self.soft_actors.iter().map(|actor| counts.get(&actor.handle).copied().unwrap_or(0)).collect()
+    }
+
     /// The figures of a body that moves by itself; those of nothing if it is gone.
     pub fn soft_figures(&self, actor: &SoftActor) -> SoftFigures {
         let Some(body) = self.creatures.get(actor.handle) else { return SoftFigures::default() };

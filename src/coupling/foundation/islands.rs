@@ -15,6 +15,7 @@ use super::sleepers::Rest;
 use super::solve::Island;
 use super::velocities::{BodyVelocity, StepSize, Velocities, mean_of_substeps};
 use super::{FoundationContact, FoundationMemory, FoundationSettings};
+use crate::coupling::joined::Joined;
 
 /// Gives the bodies the impulses that push them out over rapier's next step: changes their velocities in `bodies`.
 ///
@@ -101,30 +102,4 @@ fn place(
             Some((a, point.other.and_then(&mut index)))
         })
         .collect()
-}
-
-/// Union-find.
-#[derive(Default)]
-struct Joined {
-    parents: Vec<usize>,
-}
-
-impl Joined {
-    fn grow(&mut self, count: usize) {
-        self.parents.extend(self.parents.len()..count);
-    }
-
-    fn root(&mut self, mut index: usize) -> usize {
-        while self.parents[index] != index {
-            self.parents[index] = self.parents[self.parents[index]];
-            index = self.parents[index];
-        }
-        index
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        // The smaller index is the root: no history decides.
-        self.parents[a.max(b)] = a.min(b);
-    }
 }

@@ -1,9 +1,8 @@
-//! Which vertices may touch which surfaces in the coming step.
+//! Which bodies may meet in the coming step, and where vertices of tangled ones get out of each other.
 
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
-use rayon::prelude::*;
 
-use super::surface::PlacedSurface;
+use super::near::Side;
 use super::{MeetingBody, SKIN};
 use crate::math::Vec3;
 
@@ -22,12 +21,8 @@ pub struct Sight {
     pub region: Aabb,
     /// The mean velocity of its boundary, in m/s.
     pub mean: Vec3,
-    /// No vertex is faster than this relative to the mean.
-    pub spread: f32,
     /// Half of the gap that is kept to it, in metres.
     pub skin: f32,
-    /// Outward normals of the boundary's vertices, in their order; unit or zero.
-    pub normals: Vec<Vec3>,
 }
 
 impl Sight {
@@ -44,26 +39,20 @@ impl Sight {
             mean += v;
         }
         mean /= vertices.len().max(1) as f32;
-        let spread = vertices.iter().map(|&i| v[i as usize].distance_squared(mean)).fold(0.0, f32::max).sqrt();
         let edge = body.surface.edge;
         let skin = SKIN * edge;
         swept.merge(&bounds);
-        let normals = body.surface.normals(x);
-        Self { bounds, region: swept.loosened(skin + DEEPEST * edge), mean, spread, skin, normals }
+        Self { bounds, region: swept.loosened(skin + DEEPEST * edge), mean, skin }
     }
 }
 
 /// A vertex of one body near a triangle of another.
 #[derive(Clone, Copy, Debug)]
 pub struct Touch {
-    /// The vertex of the first body.
-    pub vertex: u32,
-    /// The other body.
-    pub other: u32,
-    /// The corners of the triangle.
-    pub corners: [u32; 3],
-    /// Barycentric coordinates of the nearest point.
-    pub weights: [f32; 3],
+    /// The vertex and the corners of the triangle, counted through all bodies.
+    pub vertices: [u32; 4],
+    /// 1, and less the barycentric coordinates of the nearest point.
+    pub weights: [f32; 4],
     /// Unit normal, out of the other body.
     pub normal: Vec3,
     /// Distance of the surfaces with their skins, in metres; negative where they overlap.
@@ -72,13 +61,17 @@ pub struct Touch {
 
 /// The pairs of bodies whose regions meet and whose groups allow it, in ascending order.
 pub fn pairs(bodies: &[MeetingBody<'_>], sights: &[Sight]) -> Vec<(u32, u32)> {
+    // Along the axis on which they are spread most.
+    let mut spread = Aabb::new_invalid();
+    sights.iter().for_each(|sight| spread.take_point(sight.region.mins));
+    let axis = spread.extents().max_position();
     let mut order: Vec<u32> = (0..sights.len() as u32).collect();
-    let start = |i: u32| sights[i as usize].region.mins.x;
+    let start = |i: u32| sights[i as usize].region.mins[axis];
     order.sort_by(|&a, &b| start(a).total_cmp(&start(b)).then(a.cmp(&b)));
     let mut pairs = Vec::new();
     for (k, &a) in order.iter().enumerate() {
         let (seen, first) = (&sights[a as usize], &bodies[a as usize]);
-        for &b in order[k + 1..].iter().take_while(|&&b| start(b) <= seen.region.maxs.x) {
+        for &b in order[k + 1..].iter().take_while(|&&b| start(b) <= seen.region.maxs[axis]) {
             let second = &bodies[b as usize];
             // What rapier's surfaces do already is not done twice.
             if (first.own_contacts || second.own_contacts)
@@ -93,58 +86,28 @@ pub fn pairs(bodies: &[MeetingBody<'_>], sights: &[Sight]) -> Vec<(u32, u32)> {
     pairs
 }
 
-/// What the vertices of each body may touch in a step of `h` seconds, one list a body. Bodies are looked at in parallel; the
-/// order in a list does not depend on it.
-pub fn touches(bodies: &[MeetingBody<'_>], sights: &[Sight], pairs: &[(u32, u32)], h: f32) -> Vec<Vec<Touch>> {
-    let mut others: Vec<Vec<u32>> = vec![Vec::new(); bodies.len()];
-    for &(a, b) in pairs {
-        others[a as usize].push(b);
-        others[b as usize].push(a);
-    }
-    let surfaces: Vec<PlacedSurface> = bodies
-        .par_iter()
-        .zip(&others)
-        .map(|(body, others)| {
-            let mut placed = PlacedSurface::default();
-            if !others.is_empty() {
-                placed.place(body.surface, body.body.positions());
-            }
-            placed
-        })
-        .collect();
-    (0..bodies.len())
-        .into_par_iter()
-        .map(|a| {
-            let mut found = Vec::new();
-            for &b in &others[a] {
-                let (first, second) = (&bodies[a], &bodies[b as usize]);
-                touches_of(first, &sights[a], (b, second, &sights[b as usize]), &surfaces[b as usize], h, &mut found);
-            }
-            found
-        })
-        .collect()
+/// What the vertices of two bodies that are tangled may touch, and the way that leads apart.
+pub fn touches_of(a: &Side<'_>, b: &Side<'_>) -> Vec<Touch> {
+    let mut found = Vec::new();
+    vertices_of(a, b, &mut found);
+    vertices_of(b, a, &mut found);
+    found
 }
 
-fn touches_of(
-    first: &MeetingBody<'_>,
-    own: &Sight,
-    (other, second, seen): (u32, &MeetingBody<'_>, &Sight),
-    surface: &PlacedSurface,
-    h: f32,
-    found: &mut Vec<Touch>,
-) {
+fn vertices_of(first: &Side<'_>, second: &Side<'_>, found: &mut Vec<Touch>) {
+    let (own, seen) = (first.sight, second.sight);
+    let surface = &second.placed.triangles;
     let skins = own.skin + seen.skin;
-    let deepest = DEEPEST * first.surface.edge.min(second.surface.edge);
-    let (x, v) = (first.body.positions(), first.body.velocities());
-    let box_of = |reach: f32| seen.bounds.loosened(reach);
-    let widest = box_of((skins + h * (own.spread + own.mean.distance(seen.mean) + seen.spread)).max(deepest));
-    for (&vertex, facing) in first.surface.vertices.iter().zip(&own.normals) {
-        let (x, v) = (x[vertex as usize], v[vertex as usize]);
-        if !widest.contains_local_point(x) {
+    let deepest = DEEPEST * first.body.surface.edge.min(second.body.surface.edge);
+    let x = first.body.body.positions();
+    let normals = first.body.surface.normals(x);
+    for (&vertex, facing) in first.body.surface.vertices.iter().zip(&normals) {
+        let x = x[vertex as usize];
+        let travel = first.reach.moves[vertex as usize] + second.reach.farthest;
+        let reach = (skins + travel).max(deepest);
+        if !seen.bounds.loosened(reach).contains_local_point(x) {
             continue;
         }
-        let travel = h * (v.distance(seen.mean) + seen.spread);
-        let reach = (skins + travel).max(deepest);
         let Some(mut nearest) = surface.nearest(x, reach, |_| true) else { continue };
         if facing.dot(nearest.normal) >= TURNED_AWAY {
             // Outside it is beyond the other body already; inside it goes back the way that it came.
@@ -158,7 +121,7 @@ fn touches_of(
                 nearest = back;
             }
         }
-        let corners = second.surface.triangles[nearest.triangle];
+        let corners = second.body.surface.triangles[nearest.triangle];
         let distance = nearest.way.length();
         let outside = nearest.way.dot(nearest.normal) >= 0.0;
         // Where the other body is folded, its normals say inside of what is far away.
@@ -173,7 +136,14 @@ fn touches_of(
         };
         let gap = if outside { distance } else { -distance } - skins;
         if gap <= travel && normal != Vec3::ZERO {
-            found.push(Touch { vertex, other, corners, weights: nearest.weights, normal, gap });
+            let [p, q, r] = corners.map(|c| c + second.offset);
+            let [wp, wq, wr] = nearest.weights;
+            found.push(Touch {
+                vertices: [vertex + first.offset, p, q, r],
+                weights: [1.0, -wp, -wq, -wr],
+                normal,
+                gap,
+            });
         }
     }
 }

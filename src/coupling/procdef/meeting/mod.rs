@@ -1,33 +1,41 @@
-//! Contacts of vertices, found and solved here instead of in rapier.
+//! Contacts of vertices and edges, found and solved here instead of in rapier.
 //!
 //! Rapier's contacts of deformable surfaces are general and dear: a heap of a hundred worms spends 95 % of its step in them. Here
-//! a vertex meets the nearest point of another body's surface, or of a rigid collider, once a step: no edges against edges, no
-//! substeps, no warm starts. That is enough for bodies whose triangles are small beside what they touch.
+//! vertices meet the triangles of other bodies, edges the edges, and vertices rigid colliders, once a step: no substeps, no warm
+//! starts. That is enough for bodies whose triangles are small beside the rigid things that they touch.
 //!
 //! The velocities that bodies want to go on with are changed so that rapier's next step, which moves the particles, ends without
-//! overlaps: sequential impulses (Catto, *Iterative Dynamics with Temporal Coherence*, 2005) between vertices, triangles and
-//! rigid bodies. Rapier keeps everything else.
+//! overlaps: sequential impulses (Catto, *Iterative Dynamics with Temporal Coherence*, 2005) between vertices and
+//! rigid bodies. What they leave undone is held back ([`hold`]): bodies that are apart stay apart. Rapier keeps everything else.
 
 mod detect;
+mod edges;
+mod encounters;
+mod frames;
+mod hold;
+mod lanes;
+mod near;
 mod rigid;
 mod solve;
 mod surface;
+mod tangles;
+mod triangles;
 
 use rapier3d::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::{ColliderSet, InteractionGroups};
 use rapier3d::pipeline::QueryPipeline;
-use rayon::prelude::*;
 
 use super::{GroundContact, GroundDirections};
 use crate::coupling::PartCache;
 use crate::math::Vec3;
 use crate::procdef::ProcDefBody;
 
-use detect::{Sight, pairs, touches};
-use rigid::{Copies, Surroundings, directed, rigid_touches};
+use encounters::Encounters;
+use rigid::{Copies, Surroundings};
 pub use rigid::{Refused, RigidCopy};
-use solve::{Contact, Friction, Other, PARTING, Velocities, solve};
+use solve::solve;
 pub use surface::ContactSurface;
+pub use tangles::KnownApart;
 
 /// Each body keeps this part of a boundary edge free around itself, as rapier's contact skin does.
 pub const SKIN: f32 = 0.1;
@@ -43,6 +51,8 @@ pub struct GroundFriction<'a> {
 
 /// A body that meets others.
 pub struct MeetingBody<'a> {
+    /// What it is called from step to step, as by its handle: different for each.
+    pub name: (u32, u32),
     /// Positions now, and the velocities that it wants to go on with, which are changed.
     pub body: &'a mut ProcDefBody,
     /// Its boundary.
@@ -55,6 +65,8 @@ pub struct MeetingBody<'a> {
     pub ground: Option<GroundFriction<'a>>,
     /// Rigid bodies that it is attached to: they do not touch.
     pub attached: &'a [RigidBodyHandle],
+    /// Whether fixed bodies pushed it in the last step.
+    pub stood: bool,
     /// Whether its contacts are made here; else by rapier, but for those with bodies whose contacts are made here.
     pub own_contacts: bool,
 }
@@ -68,6 +80,17 @@ pub struct Meeting {
     pub ground: Vec<GroundContact>,
     /// How deep the deepest of its vertices was in something, with the gaps that are kept, in metres.
     pub deepest: f32,
+    /// How many of its vertices were held back, because contacts alone would have let them into another body.
+    pub held: usize,
+}
+
+/// What is remembered from step to step.
+#[derive(Default)]
+pub struct MeetingMemory {
+    /// The convex parts of colliders.
+    pub parts: PartCache,
+    /// The bodies that are near each other and apart.
+    pub apart: KnownApart,
 }
 
 /// The step in which bodies meet.
@@ -88,106 +111,39 @@ pub fn meet(
     step: &MeetingStep,
     query: QueryPipeline<'_>,
     (rigid_bodies, colliders): (&RigidBodySet, &ColliderSet),
-    cache: &mut PartCache,
+    memory: &mut MeetingMemory,
     refused: &mut Refused,
 ) -> (Vec<Meeting>, Vec<RigidCopy>) {
     let h = step.dt;
-    let substeps = step.substeps.max(1) as f32;
-    let drift = step.gravity * (h * (substeps + 1.0) / (2.0 * substeps));
-    let seen: &[MeetingBody<'_>] = bodies;
-    let sights: Vec<Sight> = seen.par_iter().map(|body| Sight::of(body, drift, h)).collect();
-    let found = touches(seen, &sights, &pairs(seen, &sights), h);
+    let mut stands: Vec<bool> = bodies.iter().map(|body| body.stood).collect();
+    let found = Encounters::find(bodies, step, &stands, &mut memory.apart);
 
-    let around = Surroundings { query, bodies: rigid_bodies, colliders, drift, h };
+    let around = Surroundings { query, bodies: rigid_bodies, colliders, drift: step.drift(), h };
     let mut copies = Copies::default();
-    let mut offsets = Vec::with_capacity(seen.len());
     let mut contacts = Vec::new();
-    let mut ground_from = Vec::new();
-    let mut count = 0u32;
-    for body in seen {
-        offsets.push(count);
-        count += body.body.positions().len() as u32;
-    }
-    // The last sweep runs backwards: what is rigid has the last word.
-    for (a, body) in seen.iter().enumerate().filter(|(_, body)| body.own_contacts) {
-        for touch in rigid_touches(body, &sights[a], &around, &mut copies, cache, refused) {
-            let x = body.body.positions();
-            let friction = match &body.ground {
-                Some(ground) if touch.fixed => directed(ground, touch.vertex, touch.normal, touch.friction, x),
-                _ => Friction::Even(touch.friction),
-            };
-            ground_from.push((a, touch.vertex, touch.fixed));
-            contacts.push(Contact {
-                vertex: offsets[a] + touch.vertex,
-                other: Other::Rigid(touch.copy, x[touch.vertex as usize]),
-                normal: touch.normal,
-                gap: touch.gap,
-                parting: PARTING * sights[a].skin,
-                friction,
-                impulse: (0.0, Vec3::ZERO),
-            });
-        }
-    }
-    for (a, (body, touches)) in seen.iter().zip(&found).enumerate() {
-        for touch in touches {
-            let other = &seen[touch.other as usize];
-            let corners = touch.corners.map(|v| v + offsets[touch.other as usize]);
-            contacts.push(Contact {
-                vertex: offsets[a] + touch.vertex,
-                other: Other::Triangle(corners, touch.weights),
-                normal: touch.normal,
-                gap: touch.gap,
-                parting: PARTING * (sights[a].skin + sights[touch.other as usize].skin),
-                friction: Friction::Even(between(body, other)),
-                impulse: (0.0, Vec3::ZERO),
-            });
-        }
-    }
-    let mut meetings: Vec<Meeting> = bodies.iter().map(|_| Meeting::default()).collect();
-    if contacts.is_empty() {
-        return (meetings, Vec::new());
-    }
-    let mut velocities = Velocities {
-        vertices: bodies.iter().flat_map(|b| b.body.velocities().iter().map(|v| *v + drift)).collect(),
-        inverse_masses: bodies.iter().flat_map(|b| b.body.rig().masses().iter().map(|m| 1.0 / m)).collect(),
-        rigid: copies.list,
-    };
-    solve(&mut contacts, &mut velocities, h);
-    for (body, &offset) in bodies.iter_mut().zip(&offsets) {
-        let own = velocities.vertices[offset as usize..].iter();
-        body.body.velocities_mut().iter_mut().zip(own).for_each(|(v, &new)| *v = new - drift);
-    }
+    // The last sweep runs backwards: of contacts, what is rigid has the last word.
+    let touched = found.add_rigid(bodies, &around, (&mut copies, &mut memory.parts, refused), &mut contacts);
+    found.add_soft(bodies, &mut contacts);
 
-    let mut felt = vec![Vec3::ZERO; count as usize];
-    for (contact, from) in contacts.iter().zip(ground_from.into_iter().map(Some).chain(std::iter::repeat(None))) {
-        let (pressed, braked) = contact.impulse;
-        let body = offsets.partition_point(|&o| o <= contact.vertex) - 1;
-        let deepest = &mut meetings[body].deepest;
-        *deepest = deepest.max(-contact.gap);
-        if pressed == 0.0 {
-            continue;
-        }
-        let impulse = contact.normal * pressed + braked;
-        if let Some((a, vertex, true)) = from {
-            meetings[a].ground.push(GroundContact { vertex, normal: contact.normal });
-            continue;
-        }
-        felt[contact.vertex as usize] += impulse;
-        if let Other::Triangle(corners, weights) = contact.other {
-            corners.iter().zip(weights).for_each(|(&v, w)| felt[v as usize] -= impulse * w);
-        }
+    let mut meetings: Vec<Meeting> = bodies.iter().map(|_| Meeting::default()).collect();
+    let mut rigid = Vec::new();
+    if !contacts.is_empty() {
+        let mut velocities = found.velocities(bodies, step.drift());
+        velocities.rigid = copies.list;
+        solve(&mut contacts, &mut velocities, h);
+        found.take(bodies, &velocities.vertices, step.drift());
+        rigid = velocities.rigid;
+        found.report(bodies, &contacts, &touched, &mut meetings);
     }
-    for ((meeting, body), &offset) in meetings.iter_mut().zip(bodies.iter()).zip(&offsets) {
-        meeting.ground.dedup_by_key(|g| g.vertex);
-        let own = &felt[offset as usize..][..body.body.positions().len()];
-        if own.iter().any(|f| *f != Vec3::ZERO) {
-            meeting.felt.extend_from_slice(own);
-        }
-    }
-    (meetings, velocities.rigid)
+    stands.iter_mut().zip(&meetings).for_each(|(stands, meeting)| *stands = !meeting.ground.is_empty());
+    found.hold_apart(bodies, step, &stands, &mut memory.apart, &mut meetings);
+    (meetings, rigid)
 }
 
-/// The coefficient of friction between two bodies: the mean, or the least where one has a direction of its own.
-fn between(a: &MeetingBody<'_>, b: &MeetingBody<'_>) -> f32 {
-    if a.ground.is_some() || b.ground.is_some() { a.friction.min(b.friction) } else { 0.5 * (a.friction + b.friction) }
+impl MeetingStep {
+    /// The velocity that gravity adds in the mean of the step, in m/s.
+    fn drift(&self) -> Vec3 {
+        let substeps = self.substeps.max(1) as f32;
+        self.gravity * (self.dt * (substeps + 1.0) / (2.0 * substeps))
+    }
 }

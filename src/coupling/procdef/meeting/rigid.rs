@@ -249,8 +249,8 @@ pub fn directed(
     normal: Vec3,
     floor: f32,
     positions: &[Vec3],
-) -> super::Friction {
+) -> super::solve::Friction {
     let along = ground.directions.at(vertex, positions);
     let along = (along - normal * along.dot(normal)).normalize_or_zero();
-    super::Friction::Directed { along, coefficients: ground.directions.coefficients(floor, ground.turned) }
+    super::solve::Friction::Directed { along, coefficients: ground.directions.coefficients(floor, ground.turned) }
 }

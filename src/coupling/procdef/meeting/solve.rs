@@ -15,13 +15,13 @@ const UNDONE: f32 = 0.5;
 /// Bodies that overlap part by so many times the gap that is kept between them a second, at most.
 pub const PARTING: f32 = 20.0;
 
-/// The other side of a contact.
+/// What touches what.
 #[derive(Clone, Copy, Debug)]
-pub enum Other {
-    /// Three vertices with barycentric coordinates.
-    Triangle([u32; 3], [f32; 3]),
-    /// A rigid body by its place in the list of copies, and the point of the contact.
-    Rigid(u32, Vec3),
+pub enum Sides {
+    /// Four vertices, counted through all bodies, with weights that add up to nothing: a vertex and a triangle, or two edges.
+    Soft([u32; 4], [f32; 4]),
+    /// A vertex, a rigid body by its place in the list of copies, and the point of the contact.
+    Rigid(u32, u32, Vec3),
 }
 
 /// How hard a contact may brake.
@@ -38,14 +38,12 @@ pub enum Friction {
     },
 }
 
-/// A contact of a vertex.
+/// A contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact {
-    /// The vertex, counted through all bodies.
-    pub vertex: u32,
-    /// What it touches.
-    pub other: Other,
-    /// Unit normal towards the vertex.
+    /// What touches what.
+    pub sides: Sides,
+    /// Unit normal towards the first side.
     pub normal: Vec3,
     /// Gap in metres, negative for an overlap.
     pub gap: f32,
@@ -88,15 +86,15 @@ pub fn solve(contacts: &mut [Contact], velocities: &mut Velocities, h: f32) {
 
 impl Row {
     fn of(contact: &Contact, velocities: &Velocities, h: f32) -> Self {
-        let own = velocities.inverse_masses[contact.vertex as usize];
-        let (response, tangent) = match contact.other {
-            Other::Triangle(corners, weights) => {
-                let part = |(&v, w): (&u32, f32)| velocities.inverse_masses[v as usize] * w * w;
-                let other: f32 = corners.iter().zip(weights).map(part).sum();
-                (own + other, own + other)
+        let inverse = |v: u32| velocities.inverse_masses[v as usize];
+        let (response, tangent) = match contact.sides {
+            Sides::Soft(vertices, weights) => {
+                let all: f32 = vertices.iter().zip(weights).map(|(&v, w)| inverse(v) * w * w).sum();
+                (all, all)
             }
-            Other::Rigid(index, point) => {
+            Sides::Rigid(vertex, index, point) => {
                 let rigid = &velocities.rigid[index as usize];
+                let own = inverse(vertex);
                 (own + rigid.response(point, contact.normal), own + rigid.largest_response(point))
             }
         };
@@ -109,15 +107,15 @@ impl Row {
 
 #[inline]
 fn push(contact: &mut Contact, row: &Row, velocities: &mut Velocities) {
-    let at = contact.vertex as usize;
-    let other = match contact.other {
-        Other::Triangle([a, b, c], [wa, wb, wc]) => {
+    let u = match contact.sides {
+        Sides::Soft([a, b, c, d], [wa, wb, wc, wd]) => {
             let v = &velocities.vertices;
-            v[a as usize] * wa + v[b as usize] * wb + v[c as usize] * wc
+            v[a as usize] * wa + v[b as usize] * wb + v[c as usize] * wc + v[d as usize] * wd
         }
-        Other::Rigid(index, point) => velocities.rigid[index as usize].at(point),
+        Sides::Rigid(vertex, index, point) => {
+            velocities.vertices[vertex as usize] - velocities.rigid[index as usize].at(point)
+        }
     };
-    let u = velocities.vertices[at] - other;
     let n = contact.normal;
     let along = u.dot(n);
     let pressed = (contact.impulse.0 + row.mass * (row.target - along)).max(0.0);
@@ -127,14 +125,16 @@ fn push(contact: &mut Contact, row: &Row, velocities: &mut Velocities) {
     let braked = contact.friction.limited(contact.impulse.1 - (u - n * along) * row.tangent_mass, n, pressed);
     let impulse = n * (pressed - contact.impulse.0) + (braked - contact.impulse.1);
     contact.impulse = (pressed, braked);
-    velocities.vertices[at] += impulse * velocities.inverse_masses[at];
-    match contact.other {
-        Other::Triangle(corners, weights) => {
-            for (&v, w) in corners.iter().zip(weights) {
-                velocities.vertices[v as usize] -= impulse * (velocities.inverse_masses[v as usize] * w);
+    match contact.sides {
+        Sides::Soft(vertices, weights) => {
+            for (&v, w) in vertices.iter().zip(weights) {
+                velocities.vertices[v as usize] += impulse * (velocities.inverse_masses[v as usize] * w);
             }
         }
-        Other::Rigid(index, point) => velocities.rigid[index as usize].push(point, -impulse),
+        Sides::Rigid(vertex, index, point) => {
+            velocities.vertices[vertex as usize] += impulse * velocities.inverse_masses[vertex as usize];
+            velocities.rigid[index as usize].push(point, -impulse);
+        }
     }
 }
 

@@ -1,4 +1,5 @@
-use super::{ContactSurface, PlacedSurface};
+use super::super::surface::ContactSurface;
+use super::PlacedTriangles;
 use crate::math::Vec3;
 use crate::mesh::TetrahedralMesh;
 use rapier3d::parry::query::PointQuery;
@@ -41,8 +42,8 @@ fn the_nearest_point_is_that_of_a_search_through_all_triangles_and_its_side_is_r
     let mesh = TetrahedralMesh::new(all, cells).expect("a ball");
     let surface = ContactSurface::new(&mesh, 0.3);
     assert_eq!(surface.triangles.len() % 8, 0);
-    let mut placed = PlacedSurface::default();
-    placed.place(&surface, &x);
+    let mut placed = PlacedTriangles::default();
+    placed.place(&surface, &x, &[]);
     let mut random = fastrand::Rng::with_seed(5);
     let mut found = 0;
     for _ in 0..3000 {
