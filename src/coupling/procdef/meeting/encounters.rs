@@ -102,12 +102,21 @@ impl Encounters {
             for touch in rigid_touches(body, &self.sights[a], around, copies, parts, refused) {
                 let x = body.body.positions();
                 let friction = match &body.ground {
-                    Some(ground) if touch.fixed => directed(ground, touch.vertex, touch.normal, touch.friction, x),
+                    Some(ground) if touch.fixed && touch.face.is_none() => {
+                        directed(ground, touch.vertex, touch.normal, touch.friction, x)
+                    }
                     _ => Friction::Even(touch.friction),
                 };
                 from.push((a, touch.vertex, touch.fixed));
+                let sides = match touch.face {
+                    None => Sides::Rigid(self.offsets[a] + touch.vertex, touch.copy, x[touch.vertex as usize]),
+                    Some((corners, weights)) => {
+                        let point = corners.iter().zip(weights).map(|(&v, w)| x[v as usize] * w).sum();
+                        Sides::Face(corners.map(|v| v + self.offsets[a]), weights, touch.copy, point)
+                    }
+                };
                 contacts.push(Contact {
-                    sides: Sides::Rigid(self.offsets[a] + touch.vertex, touch.copy, x[touch.vertex as usize]),
+                    sides,
                     normal: touch.normal,
                     gap: touch.gap,
                     parting: PARTING * self.sights[a].skin,
@@ -173,6 +182,7 @@ impl Encounters {
             let (vertices, weights, count) = match contact.sides {
                 Sides::Soft(vertices, weights) => (vertices, weights, 4),
                 Sides::Rigid(vertex, ..) => ([vertex; 4], [1.0; 4], 1),
+                Sides::Face([a, b, c], [wa, wb, wc], ..) => ([a, b, c, a], [wa, wb, wc, 0.0], 3),
             };
             for v in [vertices[0], vertices[3]] {
                 let deepest = &mut meetings[self.offsets.partition_point(|&o| o <= v) - 1].deepest;
@@ -183,7 +193,9 @@ impl Encounters {
             }
             let impulse = contact.normal * pressed + braked;
             if let Some(&(a, vertex, true)) = from {
-                meetings[a].ground.push(GroundContact { vertex, normal: contact.normal });
+                if let Sides::Rigid(..) = contact.sides {
+                    meetings[a].ground.push(GroundContact { vertex, normal: contact.normal });
+                }
                 continue;
             }
             for (&v, w) in vertices.iter().zip(weights).take(count) {

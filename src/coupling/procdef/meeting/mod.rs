@@ -1,8 +1,8 @@
 //! Contacts of vertices and edges, found and solved here instead of in rapier.
 //!
 //! Rapier's contacts of deformable surfaces are general and dear: a heap of a hundred worms spends 95 % of its step in them. Here
-//! vertices meet the triangles of other bodies, edges the edges, and vertices rigid colliders, once a step: no substeps, no warm
-//! starts. That is enough for bodies whose triangles are small beside the rigid things that they touch.
+//! vertices meet the triangles of other bodies, edges the edges, and vertices rigid colliders, small ones also the points between
+//! vertices, once a step: no substeps, no warm starts.
 //!
 //! The velocities that bodies want to go on with are changed so that rapier's next step, which moves the particles, ends without
 //! overlaps: sequential impulses (Catto, *Iterative Dynamics with Temporal Coherence*, 2005) between vertices and

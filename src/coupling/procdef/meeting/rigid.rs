@@ -9,7 +9,7 @@ use rapier3d::pipeline::QueryPipeline;
 
 use super::detect::Sight;
 use super::{GroundFriction, MeetingBody};
-use crate::coupling::{ObstacleError, ObstaclePart, PartCache, obstacles_near};
+use crate::coupling::{ObstacleError, ObstaclePart, PartCache, deepest_on_triangle, obstacles_near};
 use crate::math::{Mat3, Vec3};
 
 /// Velocities of a rigid body over the coming step. What is not dynamic is not pushed.
@@ -131,11 +131,13 @@ impl Copies {
     }
 }
 
-/// A vertex near a convex part of a collider.
+/// A vertex or a triangle near a convex part of a collider.
 #[derive(Clone, Copy, Debug)]
 pub struct RigidTouch {
-    /// The vertex of the body.
+    /// The vertex of the body, or the first corner of the triangle.
     pub vertex: u32,
+    /// The triangle and the point of it that is deepest, by its weights; none where it is the vertex.
+    pub face: Option<([u32; 3], [f32; 3])>,
     /// The rigid body's place among the copies.
     pub copy: u32,
     /// Whether it is fixed ground.
@@ -179,7 +181,7 @@ pub fn rigid_touches(
     };
     let thickness = sight.bounds.extents().max_element();
     let parts = obstacles_near(&around.query, &sight.region, thickness, body.groups, &own, cache, refused);
-    let mut found = Vec::new();
+    let (mut found, mut faces) = (Vec::new(), Vec::new());
     for part in &parts {
         let Some(collider) = around.colliders.get(part.collider) else { continue };
         let parent = collider.parent();
@@ -190,7 +192,11 @@ pub fn rigid_touches(
             CoefficientCombineRule::combine(body.friction, collider.friction(), rule, collider.friction_combine_rule());
         let skins = sight.skin + collider.contact_skin();
         touch_part(body, part, &copies.list[copy as usize], around, skins, |vertex, normal, gap| {
-            found.push(RigidTouch { vertex, copy, fixed, normal, gap, friction });
+            found.push(RigidTouch { vertex, face: None, copy, fixed, normal, gap, friction });
+        });
+        touch_faces(body, part, &copies.list[copy as usize], around, skins, |corners, weights, normal, gap| {
+            let face = Some((corners, weights));
+            faces.push(RigidTouch { vertex: corners[0], face, copy, fixed, normal, gap, friction });
         });
     }
     // Of the parts that hold a vertex the same way the deepest counts: neighbours of a surface are one obstacle.
@@ -202,6 +208,7 @@ pub fn rigid_touches(
             kept.push(touch);
         }
     }
+    kept.extend(faces);
     kept
 }
 
@@ -238,6 +245,56 @@ fn touch_part(
         let gap = distance - skins;
         if gap <= travel && normal.is_finite() && normal != Vec3::ZERO {
             touch(vertex, normal, gap);
+        }
+    }
+}
+
+/// A part that is no larger than so many edges of the body's triangles reaches in between their vertices.
+const SLIPS_IN: f32 = 12.0;
+
+/// A triangle touches by itself where a point of it is deeper than its corners by this part of an edge.
+const BULGES: f32 = 0.02;
+
+/// What triangles touch with points between their vertices: of small parts.
+fn touch_faces(
+    body: &MeetingBody<'_>,
+    part: &ObstaclePart,
+    rigid: &RigidCopy,
+    around: &Surroundings<'_>,
+    skins: f32,
+    mut touch: impl FnMut([u32; 3], [f32; 3], Vec3, f32),
+) {
+    let surface = body.surface;
+    let bounds: &Aabb = &part.aabb;
+    if bounds.extents().max_element() > SLIPS_IN * surface.edge {
+        return;
+    }
+    let (x, v) = (body.body.positions(), body.body.velocities());
+    for &vertices in &surface.triangles[..surface.triangle_count()] {
+        let corners = vertices.map(|i| x[i as usize]);
+        let travel = |i: u32| around.h * (v[i as usize] + around.drift).distance(rigid.at(x[i as usize]));
+        let travel = vertices.map(travel).into_iter().fold(0.0, f32::max);
+        let reach = skins + travel;
+        let (low, high) =
+            (corners.into_iter().fold(Vec3::MAX, Vec3::min), corners.into_iter().fold(Vec3::MIN, Vec3::max));
+        if !(high.cmpge(bounds.mins - reach).all() && low.cmple(bounds.maxs + reach).all()) {
+            continue;
+        }
+        // Tangent planes at the corners bound the distance from below: most triangles need no search.
+        let heights = corners.map(|x| part.placed.signed_distance(x));
+        let lowest = heights.iter().map(|h| h.0).fold(f32::INFINITY, f32::min);
+        let below = (lowest - BULGES * surface.edge).min(reach);
+        let bound = |(at, (height, slope)): (&Vec3, &(f32, Vec3))| {
+            corners.iter().map(|x| height + slope.dot(*x - *at)).fold(f32::INFINITY, f32::min)
+        };
+        if corners.iter().zip(&heights).any(|corner| bound(corner) >= below) {
+            continue;
+        }
+        let (weights, height) = deepest_on_triangle(&part.placed, corners);
+        let point: Vec3 = corners.iter().zip(weights).map(|(x, w)| *x * w).sum();
+        let normal = part.placed.signed_distance(point).1;
+        if height < below && normal.is_finite() && normal != Vec3::ZERO {
+            touch(vertices, weights, normal, height - skins);
         }
     }
 }

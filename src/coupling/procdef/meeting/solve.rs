@@ -22,6 +22,8 @@ pub enum Sides {
     Soft([u32; 4], [f32; 4]),
     /// A vertex, a rigid body by its place in the list of copies, and the point of the contact.
     Rigid(u32, u32, Vec3),
+    /// A point of a triangle by its corners and their weights, a rigid body and the point, in the same manner.
+    Face([u32; 3], [f32; 3], u32, Vec3),
 }
 
 /// How hard a contact may brake.
@@ -97,6 +99,11 @@ impl Row {
                 let own = inverse(vertex);
                 (own + rigid.response(point, contact.normal), own + rigid.largest_response(point))
             }
+            Sides::Face(vertices, weights, index, point) => {
+                let rigid = &velocities.rigid[index as usize];
+                let own: f32 = vertices.iter().zip(weights).map(|(&v, w)| inverse(v) * w * w).sum();
+                (own + rigid.response(point, contact.normal), own + rigid.largest_response(point))
+            }
         };
         let target =
             if contact.gap > 0.0 { -contact.gap / h } else { (-UNDONE * contact.gap / h).min(contact.parting) };
@@ -114,6 +121,10 @@ fn push(contact: &mut Contact, row: &Row, velocities: &mut Velocities) {
         }
         Sides::Rigid(vertex, index, point) => {
             velocities.vertices[vertex as usize] - velocities.rigid[index as usize].at(point)
+        }
+        Sides::Face([a, b, c], [wa, wb, wc], index, point) => {
+            let v = &velocities.vertices;
+            v[a as usize] * wa + v[b as usize] * wb + v[c as usize] * wc - velocities.rigid[index as usize].at(point)
         }
     };
     let n = contact.normal;
@@ -133,6 +144,12 @@ fn push(contact: &mut Contact, row: &Row, velocities: &mut Velocities) {
         }
         Sides::Rigid(vertex, index, point) => {
             velocities.vertices[vertex as usize] += impulse * velocities.inverse_masses[vertex as usize];
+            velocities.rigid[index as usize].push(point, -impulse);
+        }
+        Sides::Face(vertices, weights, index, point) => {
+            for (&v, w) in vertices.iter().zip(weights) {
+                velocities.vertices[v as usize] += impulse * (velocities.inverse_masses[v as usize] * w);
+            }
             velocities.rigid[index as usize].push(point, -impulse);
         }
     }
