@@ -129,7 +129,7 @@ impl Files {
             actor.kind.skin.deform(body.positions(), &mut self.deformed)?;
             cache.write_frame(&self.deformed.positions)?;
             if let Some(table) = &mut self.soft_metrics {
-                table.write(&SoftMetricsRow { crossings, ..soft_row(frame, simulation, actor) })?;
+                table.write(&soft_row(frame, simulation, actor, crossings))?;
             }
         }
         Ok(())
@@ -146,7 +146,7 @@ impl Files {
     }
 }
 
-fn soft_row(frame: usize, simulation: &Simulation, actor: &SoftActor) -> SoftMetricsRow {
+fn soft_row(frame: usize, simulation: &Simulation, actor: &SoftActor, crossings: usize) -> SoftMetricsRow {
     let (figures, report, times) =
         (simulation.soft_figures(actor), simulation.soft_report(actor), simulation.soft_times);
     SoftMetricsRow {
@@ -157,7 +157,7 @@ fn soft_row(frame: usize, simulation: &Simulation, actor: &SoftActor) -> SoftMet
         z: figures.centre.z,
         volume_ratio: figures.volume_ratio,
         inverted: figures.inverted,
-        crossings: 0,
+        crossings,
         held: report.held,
         contraction: figures.excitation[0],
         expansion: figures.excitation[1],

@@ -24,6 +24,7 @@ mod soft_skin;
 mod strip;
 mod summary;
 mod surfaces;
+mod vertex_pass;
 mod watch;
 mod water;
 

@@ -9,12 +9,13 @@ use rayon::prelude::*;
 use crate::math::Vec3;
 
 /// How many edges of each body go through a triangle of another. A body is the positions of its vertices and the triangles of its
-/// boundary; a body whose positions are not finite crosses nothing.
+/// boundary; triangles of vertices that are not finite, or not there, cross nothing.
 pub fn crossings(bodies: &[(&[Vec3], &[[u32; 3]])]) -> Vec<usize> {
     let placed: Vec<(Aabb, Vec<[Vec3; 3]>)> = bodies
         .iter()
         .map(|(positions, triangles)| {
-            let corners: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(|v| positions[v as usize])).collect();
+            let at = |v: u32| positions.get(v as usize).copied().unwrap_or(Vec3::NAN);
+            let corners: Vec<[Vec3; 3]> = triangles.iter().map(|t| t.map(at)).collect();
             (around(corners.iter().flatten()), corners)
         })
         .collect();

@@ -2,7 +2,8 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, or_none, splat, vector};
+use super::boxes::{Boxes, SomePacks};
+use super::lanes::{LANES, dot, farthest, minus, or_none, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::boxes::Boxes;
 use super::detect::{Sight, Touch, pairs, touches_of};
 use super::edges::PlacedEdges;
 use super::frames::{Frames, Reach, spares};
 use super::hold::{Ways, hold_apart};
-use super::lanes::Boxes;
 use super::near::{Near, Side, near_of};
 use super::rigid::{Copies, Refused, Surroundings, directed, rigid_touches};
 use super::solve::{Contact, Friction, PARTING, Sides, Velocities};

@@ -41,7 +41,8 @@ pub struct Ways<'a> {
     pub h: f32,
 }
 
-/// Changes the ways of vertices so that nothing that is near crosses, for lists of what is near of each pair of bodies. The vertices that were held back, ascending.
+/// Changes the ways of vertices so that nothing that is near crosses; there is a list for each pair of bodies. The vertices that were
+/// held back, ascending.
 pub fn hold_apart(near: &[Vec<Near>], ways: &mut Ways<'_>) -> Vec<u32> {
     let h = ways.h;
     let along = ways.velocities.iter().zip(ways.frames);
@@ -87,7 +88,7 @@ pub fn hold_apart(near: &[Vec<Near>], ways: &mut Ways<'_>) -> Vec<u32> {
     let back: Vec<Vec3> = lost
         .iter()
         .zip(ways.common)
-        .map(|((momentum, mass), (_, rigid))| if *rigid { Vec3::ZERO } else { (*momentum / *mass).as_vec3() })
+        .map(|((momentum, mass), (_, fixed))| if *fixed { Vec3::ZERO } else { (*momentum / *mass).as_vec3() })
         .collect();
     ways.velocities.iter_mut().zip(ways.frames).for_each(|(v, &frame)| *v += back[frame as usize]);
     held

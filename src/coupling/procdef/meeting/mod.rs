@@ -8,6 +8,7 @@
 //! overlaps: sequential impulses (Catto, *Iterative Dynamics with Temporal Coherence*, 2005) between vertices and
 //! rigid bodies. What they leave undone is held back ([`hold`]): bodies that are apart stay apart. Rapier keeps everything else.
 
+mod boxes;
 mod detect;
 mod edges;
 mod encounters;

@@ -3,10 +3,11 @@
 //! Nothing else can meet: two triangles that come to cross begin with a vertex in a triangle or with two crossing edges.
 
 use super::MeetingBody;
+use super::boxes::{SomePacks, are_near};
 use super::detect::Sight;
 use super::encounters::Placed;
 use super::frames::Reach;
-use super::lanes::{LANES, SomePacks, are_near};
+use super::lanes::LANES;
 use crate::math::Vec3;
 
 /// Nearer than this part of an edge there is no direction from one to the other.

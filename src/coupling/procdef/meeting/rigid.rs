@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, HashMap};
 
 use rapier3d::dynamics::{CoefficientCombineRule, RigidBodyHandle, RigidBodySet};
 use rapier3d::geometry::{ColliderHandle, ColliderSet};
-use rapier3d::parry::bounding_volume::Aabb;
 use rapier3d::pipeline::QueryPipeline;
 
+use super::boxes::are_near;
 use super::detect::Sight;
 use super::{GroundFriction, MeetingBody};
 use crate::coupling::{ObstacleError, ObstaclePart, PartCache, deepest_on_triangle, obstacles_near};
@@ -221,14 +221,11 @@ fn touch_part(
     mut touch: impl FnMut(u32, Vec3, f32),
 ) {
     let (x, v) = (body.body.positions(), body.body.velocities());
-    let near = |x: Vec3, reach: f32| {
-        let bounds: &Aabb = &part.aabb;
-        x.cmpge(bounds.mins - reach).all() && x.cmple(bounds.maxs + reach).all()
-    };
+    let bounds = [part.aabb.mins, part.aabb.maxs];
     for &vertex in &body.surface.vertices {
         let (x, v) = (x[vertex as usize], v[vertex as usize]);
         let travel = around.h * (v + around.drift).distance(rigid.at(x));
-        if !near(x, skins + travel) {
+        if !are_near([x; 2], bounds, skins + travel) {
             continue;
         }
         let (mut distance, mut normal) = part.placed.signed_distance(x);
@@ -249,7 +246,7 @@ fn touch_part(
     }
 }
 
-/// A part that is no larger than so many edges of the body's triangles reaches in between their vertices.
+/// A convex part that is no larger than so many edges of the body's triangles reaches in between their vertices.
 const SLIPS_IN: f32 = 12.0;
 
 /// A triangle touches by itself where a point of it is deeper than its corners by this part of an edge.
@@ -265,10 +262,11 @@ fn touch_faces(
     mut touch: impl FnMut([u32; 3], [f32; 3], Vec3, f32),
 ) {
     let surface = body.surface;
-    let bounds: &Aabb = &part.aabb;
-    if bounds.extents().max_element() > SLIPS_IN * surface.edge {
+    // A piece of a surface ends where its neighbour begins: its border is no edge.
+    if part.face.is_some() || part.aabb.extents().max_element() > SLIPS_IN * surface.edge {
         return;
     }
+    let bounds = [part.aabb.mins, part.aabb.maxs];
     let (x, v) = (body.body.positions(), body.body.velocities());
     for &vertices in &surface.triangles[..surface.triangle_count()] {
         let corners = vertices.map(|i| x[i as usize]);
@@ -277,7 +275,7 @@ fn touch_faces(
         let reach = skins + travel;
         let (low, high) =
             (corners.into_iter().fold(Vec3::MAX, Vec3::min), corners.into_iter().fold(Vec3::MIN, Vec3::max));
-        if !(high.cmpge(bounds.mins - reach).all() && low.cmple(bounds.maxs + reach).all()) {
+        if !are_near([low, high], bounds, reach) {
             continue;
         }
         // Tangent planes at the corners bound the distance from below: most triangles need no search.

@@ -2,7 +2,8 @@
 
 use wide::f32x8;
 
-use super::lanes::{Boxes, LANES, SomePacks, dot, farthest, minus, or_none, splat, vector};
+use super::boxes::{Boxes, SomePacks};
+use super::lanes::{LANES, dot, farthest, minus, or_none, splat, vector};
 use super::surface::ContactSurface;
 use crate::math::Vec3;
 
@@ -59,8 +60,9 @@ impl PlacedTriangles {
         self.boxes.place(&surface.triangles, positions, moves);
     }
 
-    /// The point of the surface nearest to `x`, if one is within `reach` metres; of triangles only whose normals `counts`. Where several triangles are equally near, the
-    /// one that faces `x` or turns away from it most decides: its normal tells inside from outside.
+    /// The point of the surface nearest to `x`, if one is within `reach` metres; of triangles only whose normals `counts`. Where
+    /// several triangles are equally near, the one that faces `x` or turns away from it most decides: its normal tells inside
+    /// from outside.
     pub fn nearest(&self, x: Vec3, reach: f32, counts: impl Fn(Vec3) -> bool) -> Option<Nearest> {
         let mut best: Option<Nearest> = None;
         let mut limit = reach * reach;
