@@ -22,15 +22,20 @@ pub(super) fn attempt(
     way: Way,
     size: f32,
     settings: &CancelSettings,
+    begun: Begun,
 ) -> CancelReport {
-    let mut report = CancelReport::default();
+    let (mut known, mut report) = match begun {
+        Begun::Anew { earlier } => (false, CancelReport { contacts: earlier, ..CancelReport::default() }),
+        Begun::Continued(report) => (true, report),
+    };
+    let first = report.passes;
     let tolerance = settings.depth_tolerance * size;
     let nothing = (f32::INFINITY, f32::INFINITY);
-    let mut best = Best { worst: nothing, left: f32::INFINITY, state: body.collision_state(), passes: 0 };
+    let mut best = Best { worst: nothing, left: f32::INFINITY, state: body.collision_state(), passes: first };
     loop {
         let mut contacts = find_contacts(body, parts, near, tolerance);
         let small = contacts.iter().all(|contact| contact.depth() < SMALL * size);
-        if small {
+        if small || way.tips {
             add_piercings(body, parts, find_piercings(body, parts, near, tolerance), &mut contacts);
         }
         report.left = contacts.iter().map(|contact| contact.shortest_depth(body, parts)).fold(0.0, f32::max);
@@ -46,7 +51,7 @@ pub(super) fn attempt(
             break;
         }
         let mut pace = way;
-        if report.passes >= WIDE_PASSES && small {
+        if report.passes - first >= WIDE_PASSES && small {
             // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
             pace.softness *= 0.5;
             contacts =
@@ -58,8 +63,9 @@ pub(super) fn attempt(
         add_guards(body, parts, guards, &mut all);
         let least = vec![0.0; all.len()];
         let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, pace, size, settings);
-        if report.passes == 0 {
-            report.contacts = contacts;
+        if !known {
+            report.contacts.extend(contacts);
+            known = true;
         }
         for (contact, strength) in all.iter().zip(strengths).filter(|(_, strength)| *strength > 0.0) {
             report.hold(contact, strength);
@@ -75,6 +81,15 @@ pub(super) fn attempt(
     }
     report.gap = remaining_gap(body, parts, size, settings, &report);
     report
+}
+
+/// Where an attempt begins.
+pub(super) enum Begun {
+    /// With the skin as it is. `earlier` are contacts that were pushed out of parts earlier in the step: where the passes carry
+    /// them off, they come back.
+    Anew { earlier: Vec<Contact> },
+    /// With passes of the step before, which are in the palette already; the contacts are those before them.
+    Continued(CancelReport),
 }
 
 /// The best state so far.

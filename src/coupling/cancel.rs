@@ -1,15 +1,14 @@
 //! Penetration cancellation: the skin is pushed out until it touches (section 4), in the first of several ways that leaves
 //! nothing over.
 
-use super::attempt::attempt;
 use super::cancel_memory::CancelMemory;
 use super::contact::Proximity;
 use super::find_contacts::find_contacts;
-use super::folds::count_folds;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, SAME_WAY};
-use super::strength::Way;
-use crate::elastic::{CollisionState, ElasticBody};
+use super::ways::best_of_ways;
+use crate::elastic::ElasticBody;
+use crate::math::Vec3;
 
 /// Tolerances and limits of the cancellation; lengths as fractions of the body's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,33 +88,7 @@ pub fn cancel(
     if settings.placement == Placement::Literal {
         return literal(body, parts, near, size, settings);
     }
-    let softness = softness_of(body, settings);
-    let start = body.collision_state();
-    let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
-    let first = settings.first_way.min(WAYS.len() - 1);
-    let others = (0..WAYS.len()).filter(|&way| way != first);
-    for way in std::iter::once(first).chain(others) {
-        let (softer, stride) = WAYS[way];
-        let mut report = attempt(body, parts, near, Way { softness: softness * softer, stride }, size, settings);
-        // Without passes all ways are the same.
-        if report.passes == 0 && (report.left <= 0.0 || settings.max_passes == 0) {
-            return report;
-        }
-        report.way = way;
-        let grade = Grade::of(&report, &*body, &start, size, settings);
-        let good = grade.open <= 0.0 && grade.folds == 0;
-        if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
-            best = Some((grade, report, body.collision_state()));
-        }
-        let fine = best.as_ref().is_some_and(|(least, ..)| least.open <= 0.0);
-        if good || fine && softer > 1.0 {
-            break;
-        }
-        body.resume(&start);
-    }
-    let Some((_, report, state)) = best else { return CancelReport::default() };
-    body.resume(&state);
-    report
+    best_of_ways(&CancelMemory::default(), None, body, (parts, near), size, settings)
 }
 
 /// As [`cancel`], but where hardly anything has moved since the step before, with the passes of that step.
@@ -137,49 +110,36 @@ pub fn cancel_with_memory(
         return report;
     }
     body.resume(&start);
-    cancel(body, parts, near, size, &CancelSettings { first_way: memory.way, ..*settings })
+    if settings.placement == Placement::Literal {
+        return literal(body, parts, near, size, settings);
+    }
+    let settings = CancelSettings { first_way: memory.way, ..*settings };
+    best_of_ways(memory, None, body, (parts, near), size, &settings)
+}
+
+/// As [`cancel_with_memory`], for what the cancellation of other skins has made of this one since it was cancelled itself: `earlier` is the
+/// skin before any cancellation of this step, and what was done. What was pushed before is kept where it touches; the report replaces the earlier one, but
+/// its passes are those that came to it.
+pub fn cancel_further(
+    memory: &CancelMemory,
+    earlier: (&[Vec3], &CancelReport),
+    body: &mut ElasticBody,
+    parts: &[ObstaclePart],
+    near: &[Proximity],
+    size: f32,
+    settings: &CancelSettings,
+) -> CancelReport {
+    if settings.placement == Placement::Literal {
+        return literal(body, parts, near, size, settings);
+    }
+    let settings = CancelSettings { first_way: earlier.1.way, ..*settings };
+    best_of_ways(memory, Some(earlier), body, (parts, near), size, &settings)
 }
 
 /// The softness of the collision fields, within its bounds.
 pub(super) fn softness_of(body: &ElasticBody, settings: &CancelSettings) -> f32 {
     settings.softness.unwrap_or(body.rig().softness).clamp(LEAST_SOFTNESS, MOST_SOFTNESS)
 }
-
-/// What is wrong with the outcome of a way; of two, the lower is the better one. What comes first counts first.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-struct Grade {
-    /// How many times the tolerance a depth or a gap is; 0 where it is not worth another way.
-    open: f32,
-    /// Triangles turned over.
-    folds: u32,
-    /// Passes.
-    passes: u32,
-}
-
-impl Grade {
-    fn of(
-        report: &CancelReport,
-        body: &ElasticBody,
-        start: &CollisionState,
-        size: f32,
-        settings: &CancelSettings,
-    ) -> Self {
-        let depth = report.left / (settings.depth_tolerance * size);
-        let gap = report.gap / (settings.gap_tolerance * size);
-        let open = depth.max(gap);
-        Self {
-            open: if open <= WORTH_CLOSING { 0.0 } else { open },
-            folds: count_folds(body, start.positions(), size, TURNED),
-            passes: report.passes,
-        }
-    }
-}
-
-/// Cosine of the angle by which a triangle has turned that is looked at for a fold.
-const TURNED: f32 = 0.0;
-
-/// Ways to go about it, in the order in which they are tried: how many times softer than the rig says, and the stride.
-const WAYS: [(f32, f32); 5] = [(1.0, 0.12), (1.6, 0.12), (2.5, 0.12), (1.0, 0.06), (0.6, 0.12)];
 
 impl CancelReport {
     /// Notes that the field of a contact pushes: of the contacts before the first pass, those of the same segment, with a part of

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 
 use super::cancel::{CancelReport, CancelSettings, softness_of};
 use super::closing::{close_gaps, left_over, push_out, remaining_gap, worth_closing};
-use super::coherence::motion_seen_from;
+use super::coherence::{displacements, motion_seen_from};
 use super::contact::Proximity;
+use super::continued::Place;
 use super::find_contacts::find_contacts;
 use super::obstacle::{ObstaclePart, PartId};
 use super::penetrations::{Contact, SAME_WAY};
@@ -25,17 +26,21 @@ pub struct CancelMemory {
     /// How it was done.
     settings: Option<(CancelSettings, DeformSettings)>,
     /// The skin before the cancellation.
-    before: Vec<Vec3>,
-    passes: Vec<CollisionPass>,
-    pushed: Vec<Pushed>,
+    pub(super) before: Vec<Vec3>,
+    /// How far the cancellation moved each vertex, seen from its segment.
+    pub(super) moved: Vec<Vec3>,
+    pub(super) passes: Vec<CollisionPass>,
+    /// Where the parts were, in their order.
+    pub(super) places: Vec<Place>,
+    pub(super) pushed: Vec<Pushed>,
 }
 
 /// A contact that was pushed.
 #[derive(Clone, Debug)]
-struct Pushed {
+pub(super) struct Pushed {
     segment: u16,
     /// Its parts, and where they were.
-    parts: BTreeMap<PartId, Pose>,
+    pub parts: BTreeMap<PartId, Pose>,
     normal: Vec3,
     /// How far, in metres.
     by: f32,
@@ -60,7 +65,9 @@ impl CancelMemory {
         *self = Self {
             way: report.way,
             settings: Some((*settings, body.settings)),
+            moved: displacements(body, &before),
             before,
+            places: parts.iter().map(Place::of).collect(),
             passes: body.palette().passes.clone(),
             pushed: report.contacts.iter().filter(|contact| contact.held).map(pushed).collect(),
         };
@@ -99,7 +106,7 @@ impl CancelMemory {
             body.deform_collision(pass.clone());
             report.passes += 1;
         }
-        let way = Way { softness: softness_of(body, settings), stride: 1.0 };
+        let way = Way { softness: softness_of(body, settings), stride: 1.0, tips: false };
         let inside = left_over(body, parts, near, tolerance);
         let height = inside.iter().map(Contact::depth).fold(0.0, f32::max);
         if height > SMALL * size {
@@ -122,7 +129,7 @@ impl CancelMemory {
 
     /// Contacts that were pushed in the step before are those that are now. False where the contact of one is there no more: what
     /// was pushed for it must go.
-    fn recognise(&self, contacts: &mut [Contact], parts: &[ObstaclePart]) -> bool {
+    pub(super) fn recognise(&self, contacts: &mut [Contact], parts: &[ObstaclePart]) -> bool {
         let mut seen = vec![false; self.pushed.len()];
         for contact in contacts {
             for (known, seen) in self.pushed.iter().zip(&mut seen) {

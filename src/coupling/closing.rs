@@ -35,33 +35,59 @@ pub(super) fn close_gaps(
         if held <= close {
             return;
         }
-        let mut all: Vec<Contact> = watched.into_iter().map(|(contact, _)| contact).collect();
-        let guards = find_guards(body, parts, near, &all, (2.0 * widest).min(GUARD_HEIGHT * size));
-        add_guards(body, parts, guards, &mut all);
-        let least: Vec<f32> = all.iter().map(|contact| -contact.pushed).collect();
-        let (pass, strengths) = solve_pass(body, (parts, near), &all, &least, way, size, settings);
-        let before = body.collision_state();
-        body.deform_collision(pass);
-        let mut taken = 1;
-        let mut inside = left_over(body, parts, near, tolerance);
-        if !inside.is_empty() {
-            // What sank in a little between the points that were watched comes out again.
-            push_out(body, (parts, near), inside, widest, way, size, settings);
-            taken = 2;
-            inside = left_over(body, parts, near, tolerance);
-        }
-        if !inside.is_empty() || widest_held_gap(body, parts, size, report) >= held {
-            body.resume(&before);
+        let watched = watched.into_iter().map(|(contact, _)| contact.with_triangles(body, parts));
+        if !pull_back(body, (parts, near), watched.collect(), [widest, held], way, (size, settings), report) {
             return;
-        }
-        report.passes += taken;
-        for (contact, strength) in all.iter().zip(strengths).filter(|(_, strength)| *strength != 0.0) {
-            report.hold(contact, strength);
         }
         // What was taken back altogether is carried by others.
         report.contacts.iter_mut().for_each(|contact| contact.held &= contact.pushed > tolerance);
     }
 }
+
+/// Takes back what the `watched` contacts were pushed too far, all of it or a part, and pushes out again what sinks in on the way. False, with the skin as
+/// it was, where that does not make the widest gap narrower. `widest` is that gap as the points tell it, `held` as it is measured.
+fn pull_back(
+    body: &mut ElasticBody,
+    (parts, near): (&[ObstaclePart], &[Proximity]),
+    mut watched: Vec<Contact>,
+    [widest, held]: [f32; 2],
+    way: Way,
+    (size, settings): (f32, &CancelSettings),
+    report: &mut CancelReport,
+) -> bool {
+    let tolerance = settings.depth_tolerance * size;
+    let guards = find_guards(body, parts, near, &watched, (2.0 * widest).min(GUARD_HEIGHT * size));
+    add_guards(body, parts, guards, &mut watched);
+    let least: Vec<f32> = watched.iter().map(|contact| -contact.pushed).collect();
+    let (pass, strengths) = solve_pass(body, (parts, near), &watched, &least, way, size, settings);
+    let before = body.collision_state();
+    for fraction in FRACTIONS {
+        body.deform_collision(pass.weakened(fraction));
+        let mut taken = 1;
+        let mut inside = left_over(body, parts, near, tolerance);
+        while !inside.is_empty() && taken <= PUSHES {
+            // What sank in a little between the points that were watched comes out again.
+            push_out(body, (parts, near), inside, widest, way, size, settings);
+            taken += 1;
+            inside = left_over(body, parts, near, tolerance);
+        }
+        if inside.is_empty() && widest_held_gap(body, parts, size, report) < held {
+            report.passes += taken;
+            for (contact, strength) in watched.iter().zip(&strengths).filter(|(_, strength)| **strength != 0.0) {
+                report.hold(contact, strength * fraction);
+            }
+            return true;
+        }
+        body.resume(&before);
+    }
+    false
+}
+
+/// All of a gap is closed at once, or else a part of it.
+const FRACTIONS: [f32; 3] = [1.0, 0.5, 0.25];
+
+/// Most passes that push out what sank in.
+const PUSHES: u32 = 3;
 
 /// One pass that pushes these contacts out, parts within `height` metres guarded: the contacts that pushed, and how strongly.
 pub(super) fn push_out(

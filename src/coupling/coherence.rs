@@ -89,12 +89,7 @@ impl CoherenceMemory {
         size: f32,
         settings: &CancelSettings,
     ) -> TimeCoherence {
-        let displacement = |((&x, &before), weights): ((&Vec3, &Vec3), &SkinWeights)| {
-            let rotation = body.motions()[heaviest_segment(weights)].rotation;
-            rotation.inverse() * (x - before)
-        };
-        let moved: Vec<Vec3> =
-            body.positions().iter().zip(&self.before).zip(&body.rig().weights).map(displacement).collect();
+        let moved = displacements(body, &self.before);
         let touched = report.contacts.iter().flat_map(|contact| &contact.points);
         let touched = touched.filter_map(|p| Some(parts.get(p.part)?.id.collider)).collect();
         let places = parts.iter().map(|part| (part.id, *part.placed.pose())).collect();
@@ -113,13 +108,7 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
     if last.moved.len() != now.moved.len() {
         return None;
     }
-    let (vertex, change) = last
-        .moved
-        .iter()
-        .zip(&now.moved)
-        .map(|(a, b)| a.distance(*b))
-        .enumerate()
-        .fold((0, 0.0), |best, (v, change)| if change > best.1 { (v, change) } else { best });
+    let (vertex, change) = largest_change(&last.moved, &now.moved);
     let mut motion = 0.0_f32;
     let mut see =
         |old: &Pose, new: &Pose| motion = motion.max(motion_seen_from([old, new], [&last.before, &now.before]));
@@ -143,6 +132,21 @@ pub(super) fn motion_seen_from([old, new]: [&Pose; 2], [before, now]: [&[Vec3]; 
     let way =
         |(a, b): (&Vec3, &Vec3)| old.inverse_transform_point(*a).distance_squared(new.inverse_transform_point(*b));
     before.par_iter().zip(now).with_min_len(1024).map(way).reduce(|| 0.0, f32::max).sqrt()
+}
+
+/// How far each vertex of the skin is from where it was `before`, seen from the segment with most weight there.
+pub(super) fn displacements(body: &ElasticBody, before: &[Vec3]) -> Vec<Vec3> {
+    let displacement = |((&x, &before), weights): ((&Vec3, &Vec3), &SkinWeights)| {
+        let rotation = body.motions()[heaviest_segment(weights)].rotation;
+        rotation.inverse() * (x - before)
+    };
+    body.positions().iter().zip(before).zip(&body.rig().weights).map(displacement).collect()
+}
+
+/// The vertex whose displacement has changed most, and by how much.
+pub(super) fn largest_change(last: &[Vec3], now: &[Vec3]) -> (usize, f32) {
+    let changes = last.iter().zip(now).map(|(a, b)| a.distance(*b)).enumerate();
+    changes.fold((0, 0.0), |best, (v, change)| if change > best.1 { (v, change) } else { best })
 }
 
 /// The segment with most weight in a vertex.

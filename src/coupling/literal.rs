@@ -28,7 +28,7 @@ pub fn place(body: &ElasticBody, parts: &[ObstaclePart], near: &[Proximity], sof
                 outer: inner + softness * skin.size,
             };
             let shares = (0..body.motions().len()).map(|s| if s == segment { 1.0 } else { 0.0 }).collect();
-            fields.push(SegmentField { shares, field: CollisionField::Sphere(field) });
+            fields.push(SegmentField { shares, field: CollisionField::Sphere(field), owner: near.part as u32 });
         }
     }
     CollisionPass { fields, steps: body.settings.integrator.default_steps() }

@@ -9,6 +9,7 @@ mod closing;
 mod coherence;
 mod common_way;
 mod contact;
+mod continued;
 mod find_contacts;
 mod gauge;
 mod guards;
@@ -24,7 +25,7 @@ pub mod procdef;
 mod skin_point;
 mod strength;
 
-pub use cancel::{CancelReport, CancelSettings, Placement, cancel, cancel_with_memory};
+pub use cancel::{CancelReport, CancelSettings, Placement, cancel, cancel_further, cancel_with_memory};
 pub use cancel_memory::CancelMemory;
 pub use coherence::{CoherenceMemory, SMOOTH, SkinsMet, TimeCoherence};
 pub use common_way::share_ways_out;
@@ -58,4 +59,6 @@ pub use foundation::{
 pub use measure::{INSIDE, PIERCED, PIERCING_RESOLUTION, PenetrationFigures, measure};
 pub use ragdoll::{CORE_FRACTION, Ragdoll, RagdollStart, core_shape, elastic_joint, segment_shape};
 mod surroundings;
+mod watched;
+mod ways;
 pub use surroundings::{ContactMemories, ContactMemory, obstacles_near, proximities, remember_leaders};

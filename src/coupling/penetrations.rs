@@ -107,47 +107,6 @@ impl Contact {
         if points.is_empty() { self } else { Self::new(body, near, points) }
     }
 
-    /// The contact after it was cancelled, as a guard of the skin that is nearest to its parts now, and how far that is from
-    /// them. None for a contact that no field of its own has pushed.
-    pub fn watched(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Option<(Self, f32)> {
-        if !self.held {
-            return None;
-        }
-        let distance = |p: &Penetration| parts[p.part].placed.distance(p.point.position(body.positions())).0;
-        let mut points: Vec<Penetration> =
-            self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
-        points.extend(self.beside(body, parts));
-        let gap = points.iter().map(|p| -p.depth).fold(f32::INFINITY, f32::min);
-        let height = gap + WATCHED * body.skins()[usize::from(self.near.segment)].size;
-        let points: Vec<Penetration> = points.into_iter().filter(|p| -p.depth < height).collect();
-        let near = self.nearest_of(&points);
-        let guard = Self::guarding(body, near, points, height);
-        Some((Self { held: true, pushed: self.pushed, ..guard }, gap))
-    }
-
-    /// The skin that is at the place of the contact now: what went in has slid along the part, and other skin has come.
-    pub fn beside(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Vec<Penetration> {
-        let around = self.radius + self.depth();
-        let own: BTreeSet<u32> = self.points.iter().map(|p| p.point.vertices[0]).collect();
-        let touched = self.parts();
-        let here = |&vertex: &u32| {
-            let x = body.positions()[vertex as usize];
-            if x.distance(self.centre) > around || own.contains(&vertex) {
-                return None;
-            }
-            let distances = touched.iter().map(|&part| (parts[part].placed.distance(x).0, part));
-            let (distance, part) = distances.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some(Penetration { point: SkinPoint::vertex(vertex), part, depth: -distance, counts: 1.0 })
-        };
-        body.skins()[usize::from(self.near.segment)].vertices.iter().filter_map(here).collect()
-    }
-
-    /// The proximity with the part of the nearest of these points.
-    fn nearest_of(&self, points: &[Penetration]) -> Proximity {
-        let nearest = points.iter().max_by(|a, b| a.depth.total_cmp(&b.depth));
-        Proximity { part: nearest.map_or(self.near.part, |p| p.part), ..self.near }
-    }
-
     /// True where another contact of the segment, with a part that touches one of this one's, pushes nearly the same way.
     pub(super) fn goes_with(&self, other: &Contact, parts: &[ObstaclePart]) -> bool {
         self.along(other) && self.touches(other, parts)
@@ -185,9 +144,6 @@ impl Contact {
 
 /// A way out is taken where it is at most this many times as long as the shortest.
 pub(super) const ASKEW: f32 = 5.0;
-
-/// Skin of a cancelled contact is watched that is farther off than the nearest by at most this part of the size.
-const WATCHED: f32 = 0.03;
 
 /// Cosine between two directions that count as one.
 pub(super) const SAME_WAY: f32 = 0.82;

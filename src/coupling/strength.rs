@@ -20,6 +20,8 @@ pub(super) struct Way {
     pub softness: f32,
     /// The way that is gone in one pass where contacts push against each other, in sizes of the body.
     pub stride: f32,
+    /// Triangles that are pierced are looked at from the first pass on, not only where all that is left is small.
+    pub tips: bool,
 }
 
 /// The fields of one pass, and their strengths, solved so that every contact ends touching or needs no push of its own.
@@ -172,6 +174,7 @@ fn place_fields(
                 patch,
                 extent: reach_of(body, gauge),
             }),
+            owner: contact.near.part as u32,
         }
     };
     contacts.iter().enumerate().map(field).collect()
@@ -216,13 +219,13 @@ const AGAINST: f32 = -0.5;
 const ALONG: f32 = 0.1;
 
 /// Largest distance of the skin from a point, by the bounds of the segments.
-fn reach_of(body: &ElasticBody, point: Vec3) -> f32 {
+pub(super) fn reach_of(body: &ElasticBody, point: Vec3) -> f32 {
     let reach =
         |(skin, motion): (&SegmentSkin, &Pose)| motion.transform_point(skin.centroid).distance(point) + skin.size;
     body.skins().iter().zip(body.motions()).map(reach).fold(0.0, f32::max)
 }
 
-/// Gives each field its displacement, certifies the steps, and weakens all of them together past the step limit.
+/// Gives each field its displacement, and certifies the steps.
 fn set_strengths(
     pass: &mut CollisionPass,
     contacts: &[Contact],
@@ -235,6 +238,11 @@ fn set_strengths(
             field.d = contact.near.normal * strength;
         }
     }
+    certify(pass, body, settings);
+}
+
+/// Gives a pass the steps that its fields' bounds ask for, and past the step limit weakens all of them together.
+pub(super) fn certify(pass: &mut CollisionPass, body: &ElasticBody, settings: &CancelSettings) {
     let bound = bound_of_sum(&pass.fields);
     let needed = usual_steps(bound, body.settings.integrator.default_steps());
     pass.steps = needed.min(settings.max_steps).max(1);

@@ -118,6 +118,8 @@ pub struct SegmentField {
     pub shares: Box<[f32]>,
     /// The field.
     pub field: CollisionField,
+    /// What the field leads out of: an index into a list of whoever placed it. The deformation does not look at it.
+    pub owner: u32,
 }
 
 /// One pass of penetration cancellation: fields that are added up, each times the vertex's share in it. Passes are concatenated.
@@ -127,6 +129,20 @@ pub struct CollisionPass {
     pub fields: Vec<SegmentField>,
     /// Integration steps.
     pub steps: u32,
+}
+
+impl CollisionPass {
+    /// The same pass with all displacements of hugging fields times `factor`, from 0 to 1. The steps are as they were: they certify weaker
+    /// fields too.
+    pub fn weakened(&self, factor: f32) -> Self {
+        let mut pass = self.clone();
+        for entry in &mut pass.fields {
+            if let CollisionField::Hugging(field) = &mut entry.field {
+                field.d *= factor;
+            }
+        }
+        pass
+    }
 }
 
 /// All parameters of one body's deformation in one frame.

@@ -14,9 +14,9 @@ use super::encounter::Encounter;
 use super::report::{BodyReport, Frozen, StepReport};
 use super::view::RapierView;
 use crate::coupling::{
-    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel, cancel_with_memory,
-    measure, obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts, remember_skin_contacts,
-    skin_contacts,
+    CancelReport, CancelSettings, ElasticSide, ObstacleError, SegmentPair, TimeCoherence, cancel_further,
+    cancel_with_memory, measure, obstacles_near, proximities, push_back, remember_leaders, remember_pair_contacts,
+    remember_skin_contacts, skin_contacts,
 };
 use crate::math::{Pose, Vec3};
 
@@ -243,8 +243,8 @@ fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSet
             encounter.before = entry.body.positions().to_vec();
             cancel_with_memory(&entry.cancelled, &mut entry.body, parts, near, size, settings)
         } else {
-            let settings = CancelSettings { first_way: encounter.cancelled.way, ..*settings };
-            cancel(&mut entry.body, parts, near, size, &settings)
+            let earlier = (encounter.before.as_slice(), &encounter.cancelled);
+            cancel_further(&entry.cancelled, earlier, &mut entry.body, parts, near, size, settings)
         };
         if first {
             encounter.cancelled.way = report.way;
@@ -254,7 +254,8 @@ fn cancel_one(entry: &mut Entry, encounter: &mut Encounter, settings: &CancelSet
         }
         encounter.cancelled.passes += report.passes;
         encounter.cancelled.left = report.left;
-        encounter.cancelled.contacts.extend(report.contacts);
+        encounter.cancelled.contacts = report.contacts;
+        encounter.cancelled.gap = report.gap;
     }
     if !entry.body.is_finite() {
         // Whatever it was, it is not to be seen: the skin follows the rigid bodies, and the report says why.

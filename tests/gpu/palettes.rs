@@ -101,7 +101,7 @@ pub fn random_palette(rng: &mut Rng, segments: usize, integrator: Integrator) ->
                 CollisionField::Hugging(press(rng, kind, place.translation))
             };
             let shares = if i == 3 { Box::default() } else { (0..segments).map(|_| rng.f32()).collect() };
-            SegmentField { shares, field }
+            SegmentField { shares, field, owner: 0 }
         });
         CollisionPass { fields: fields.collect(), steps: 8 }
     });
@@ -122,6 +122,7 @@ pub fn single_part(rng: &mut Rng, kind: usize) -> Palette {
     let stage = SpringStage { fields: Vec::new(), steps: 6 };
     let entry = SegmentEntry { motion: pose(rng, 1.0), local: stage.clone(), global: stage };
     let field = CollisionField::Hugging(press(rng, kind, entry.motion.translation));
-    let passes = vec![CollisionPass { fields: vec![SegmentField { shares: [1.0].into(), field }], steps: 12 }];
+    let passes =
+        vec![CollisionPass { fields: vec![SegmentField { shares: [1.0].into(), field, owner: 0 }], steps: 12 }];
     Palette { segments: vec![entry], passes, ..Palette::default() }
 }
