@@ -4,7 +4,7 @@
 //! nobody sees that a choice changes. Where a body lies still but for a tremor the passes of the step before are
 //! taken as they were, and what little is left over is corrected: then the skin hardly moves more than what it lies on.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::cancel::{CancelReport, CancelSettings, softness_of};
 use super::closing::{close_gaps, left_over, push_out, remaining_gap, worth_closing};
@@ -30,17 +30,21 @@ pub struct CancelMemory {
     /// How far the cancellation moved each vertex, seen from its segment.
     pub(super) moved: Vec<Vec3>,
     pub(super) passes: Vec<CollisionPass>,
-    /// Where the parts were, in their order.
-    pub(super) places: Vec<Place>,
-    pub(super) pushed: Vec<Pushed>,
+    /// The parts' names, in their order: fields name them by their number.
+    pub(super) parts: Vec<PartId>,
+    /// Where the parts were.
+    pub(super) places: BTreeMap<PartId, Place>,
+    /// The parts that the skin was in, whatever has led it out.
+    pub(super) touched: BTreeSet<PartId>,
+    pushed: Vec<Pushed>,
 }
 
 /// A contact that was pushed.
 #[derive(Clone, Debug)]
-pub(super) struct Pushed {
+struct Pushed {
     segment: u16,
     /// Its parts, and where they were.
-    pub parts: BTreeMap<PartId, Pose>,
+    parts: BTreeMap<PartId, Pose>,
     normal: Vec3,
     /// How far, in metres.
     by: f32,
@@ -67,7 +71,9 @@ impl CancelMemory {
             settings: Some((*settings, body.settings)),
             moved: displacements(body, &before),
             before,
-            places: parts.iter().map(Place::of).collect(),
+            parts: parts.iter().map(|part| part.id).collect(),
+            places: parts.iter().map(|part| (part.id, Place::of(part))).collect(),
+            touched: report.contacts.iter().flat_map(Contact::parts).map(|part| parts[part].id).collect(),
             passes: body.palette().passes.clone(),
             pushed: report.contacts.iter().filter(|contact| contact.held).map(pushed).collect(),
         };

@@ -44,7 +44,7 @@ pub(super) fn close_gaps(
     }
 }
 
-/// Takes back what the `watched` contacts were pushed too far, all of it or a part, and pushes out again what sinks in on the way. False, with the skin as
+/// Takes back what the `watched` contacts were pushed too far, and pushes out again what sinks in on the way. False, with the skin as
 /// it was, where that does not make the widest gap narrower. `widest` is that gap as the points tell it, `held` as it is measured.
 fn pull_back(
     body: &mut ElasticBody,
@@ -61,33 +61,25 @@ fn pull_back(
     let least: Vec<f32> = watched.iter().map(|contact| -contact.pushed).collect();
     let (pass, strengths) = solve_pass(body, (parts, near), &watched, &least, way, size, settings);
     let before = body.collision_state();
-    for fraction in FRACTIONS {
-        body.deform_collision(pass.weakened(fraction));
-        let mut taken = 1;
-        let mut inside = left_over(body, parts, near, tolerance);
-        while !inside.is_empty() && taken <= PUSHES {
-            // What sank in a little between the points that were watched comes out again.
-            push_out(body, (parts, near), inside, widest, way, size, settings);
-            taken += 1;
-            inside = left_over(body, parts, near, tolerance);
-        }
-        if inside.is_empty() && widest_held_gap(body, parts, size, report) < held {
-            report.passes += taken;
-            for (contact, strength) in watched.iter().zip(&strengths).filter(|(_, strength)| **strength != 0.0) {
-                report.hold(contact, strength * fraction);
-            }
-            return true;
-        }
-        body.resume(&before);
+    body.deform_collision(pass);
+    let mut taken = 1;
+    let mut inside = left_over(body, parts, near, tolerance);
+    if !inside.is_empty() {
+        // What sank in a little between the points that were watched comes out again.
+        push_out(body, (parts, near), inside, widest, way, size, settings);
+        taken = 2;
+        inside = left_over(body, parts, near, tolerance);
     }
-    false
+    if !inside.is_empty() || widest_held_gap(body, parts, size, report) >= held {
+        body.resume(&before);
+        return false;
+    }
+    report.passes += taken;
+    for (contact, strength) in watched.iter().zip(strengths).filter(|(_, strength)| *strength != 0.0) {
+        report.hold(contact, strength);
+    }
+    true
 }
-
-/// All of a gap is closed at once, or else a part of it.
-const FRACTIONS: [f32; 3] = [1.0, 0.5, 0.25];
-
-/// Most passes that push out what sank in.
-const PUSHES: u32 = 3;
 
 /// One pass that pushes these contacts out, parts within `height` metres guarded: the contacts that pushed, and how strongly.
 pub(super) fn push_out(

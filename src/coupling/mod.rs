@@ -40,7 +40,7 @@ pub use obstacle::{
     decompose, decompose_cached,
 };
 pub use pairs::{
-    HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, interface_part, pairs_of,
+    HeightMap, Interface, Overlap, OverlapPoint, SegmentPair, SegmentRef, SkinSide, Widening, interface_part, pairs_of,
     segment_bounds, self_pairs,
 };
 pub use penetrations::{Contact, Penetration};

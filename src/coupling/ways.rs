@@ -3,6 +3,8 @@
 //! Where the usual way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
 //! step before are tried once more ([`continued`](super::continued)), then softer fields, and triangles that are looked at from the first pass on.
 
+use std::collections::VecDeque;
+
 use super::attempt::{Begun, attempt};
 use super::cancel::{CancelReport, CancelSettings, WORTH_CLOSING, softness_of};
 use super::cancel_memory::CancelMemory;
@@ -27,7 +29,8 @@ pub(super) fn best_of_ways(
     let before = earlier.map_or(start.positions(), |(before, _)| before);
     let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
     let first = settings.first_way.min(WAYS.len() - 1);
-    for course in courses(first, earlier.is_none()) {
+    let mut courses = VecDeque::from([Course::Anew(first)]);
+    while let Some(course) = courses.pop_front() {
         let number = course.way(first);
         let kind = &WAYS[number];
         let way = Way { softness: softness_of(body, settings) * kind.softer, stride: STRIDE, tips: kind.tips };
@@ -44,9 +47,12 @@ pub(super) fn best_of_ways(
                 return report;
             }
             report.way = number;
-            let pop = memory.pop(body, before, parts, size, settings);
+            let pop = memory.pop(body, before, parts, &report.contacts, size, settings);
             let grade = Grade::of(&report, pop, body, &start, size, settings);
             let good = grade.open <= 0.0 && grade.folds == 0;
+            if best.is_none() {
+                courses.extend(other_courses(first, pop, earlier.is_none()));
+            }
             if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
                 best = Some((grade, report, body.collision_state()));
             }
@@ -81,16 +87,20 @@ impl Course {
     }
 }
 
-/// The courses in the order in which they are tried.
-fn courses(first: usize, may_continue: bool) -> impl Iterator<Item = Course> {
-    let continued = KEEPS.into_iter().filter(move |_| may_continue).map(Course::Continued);
-    let others = (0..WAYS.len()).filter(move |&way| way != first).map(Course::Anew);
-    std::iter::once(Course::Anew(first)).chain(continued).chain(others)
+/// The courses that are tried, in this order, where passes in the `first` way are not good; they changed the skin by `pop`
+/// times what it has moved.
+fn other_courses(first: usize, pop: f32, may_continue: bool) -> impl Iterator<Item = Course> {
+    // Where the skin would pop it goes as far towards its new shape as is calm, or else not at all.
+    let keeps = if pop > CALM { [1.0 - GOES * CALM / pop, 1.0] } else { [1.0, MOST] };
+    let continued = keeps.into_iter().filter(move |_| may_continue).map(Course::Continued);
+    continued.chain((0..WAYS.len()).filter(move |&way| way != first).map(Course::Anew))
 }
 
-/// How much of the passes of the step before is kept. All of it changes the skin least; with less it gets to the shape that it would
-/// have anew within a few steps.
-const KEEPS: [f32; 2] = [1.0, 0.8];
+/// The part of the way to the new shape that is gone in a step where all of it would be a pop, as a part of what is calm.
+const GOES: f32 = 0.6;
+
+/// How much of the passes of the step before is kept where they are tried for their shape only.
+const MOST: f32 = 0.8;
 
 /// A way to choose passes.
 struct Kind {

@@ -131,20 +131,6 @@ pub struct CollisionPass {
     pub steps: u32,
 }
 
-impl CollisionPass {
-    /// The same pass with all displacements of hugging fields times `factor`, from 0 to 1. The steps are as they were: they certify weaker
-    /// fields too.
-    pub fn weakened(&self, factor: f32) -> Self {
-        let mut pass = self.clone();
-        for entry in &mut pass.fields {
-            if let CollisionField::Hugging(field) = &mut entry.field {
-                field.d *= factor;
-            }
-        }
-        pass
-    }
-}
-
 /// All parameters of one body's deformation in one frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Palette {

@@ -1,13 +1,14 @@
 //! Measuring how smoothly the cancellation changes from step to step.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::deformation_world::DeformationWorld;
 use super::encounter::Encounter;
-use crate::coupling::{SegmentRef, SkinsMet};
+use super::meetings::Parted;
+use crate::coupling::SkinsMet;
 
 impl DeformationWorld {
     /// Remembers the skins before the cancellation.
@@ -16,18 +17,14 @@ impl DeformationWorld {
     }
 
     /// Compares the cancellation with that of the step before; `parted` are the skins that were pushed apart.
-    pub(super) fn measure_coherence(
-        &mut self,
-        encounters: &mut [Encounter],
-        parted: &BTreeSet<(SegmentRef, SegmentRef)>,
-    ) {
+    pub(super) fn measure_coherence(&mut self, encounters: &mut [Encounter], parted: &Parted) {
         let raw = |encounter: &Encounter| encounter.handle.into_raw_parts();
         let motions: BTreeMap<_, _> =
             encounters.iter().map(|encounter| (raw(encounter), encounter.motions.clone())).collect();
         let motions = Arc::new(motions);
         let mut met: Vec<SkinsMet> =
             encounters.iter().map(|_| SkinsMet { motions: motions.clone(), ..SkinsMet::default() }).collect();
-        for (a, b) in parted {
+        for (a, b) in parted.keys() {
             met[a.body].touched.insert((raw(&encounters[b.body]), b.segment));
             met[b.body].touched.insert((raw(&encounters[a.body]), a.segment));
         }

@@ -1,6 +1,6 @@
 //! The set of elastic bodies beside a rapier world.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use rapier3d::data::arena::{Arena, Index};
@@ -8,12 +8,13 @@ use rapier3d::dynamics::RigidBodyHandle;
 use rapier3d::geometry::{Collider, ColliderHandle, InteractionGroups, SharedShape};
 use rapier3d::pipeline::PhysicsWorld;
 
+use super::meetings::SegmentName;
 use super::report::{BodyReport, StepReport};
 use super::view::{RapierSets, RapierView};
 use crate::coupling::self_pairs;
 use crate::coupling::{
     CancelMemory, CancelSettings, CoherenceMemory, ContactMemories, FoundationMemory, FoundationSettings,
-    ObstacleError, PairApproaches, PartCache, PartId, Ragdoll, RagdollStart,
+    ObstacleError, PairApproaches, PartCache, PartId, Ragdoll, RagdollStart, Widening,
 };
 use crate::elastic::{DeformSettings, ElasticBody, ElasticRig};
 use crate::field::PlacedPart;
@@ -137,6 +138,8 @@ pub struct DeformationWorld {
     pub(super) own: BTreeSet<(u32, u32)>,
     pub(super) foundation: FoundationMemory,
     pub(super) approaches: PairApproaches,
+    /// How much interfaces between skins were widened in the last step.
+    pub(super) widenings: BTreeMap<[SegmentName; 2], Widening>,
     pub(super) report: StepReport,
 }
 

@@ -1,6 +1,6 @@
 //! Elastic bodies that meet each other or themselves: impulses that push them apart, and interfaces for their skins.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use rapier3d::dynamics::RigidBodySet;
 use rayon::prelude::*;
@@ -29,6 +29,19 @@ const OWN_NEARING: f32 = 0.01;
 
 /// Most points at which two segments push each other.
 const MOST_POINTS: usize = 96;
+
+/// The interfaces of a step by the pairs that they part: as they were found, and as they are.
+pub(super) type Parted = BTreeMap<(SegmentRef, SegmentRef), [Interface; 2]>;
+
+/// A segment of a body for longer than a step.
+pub(super) type SegmentName = ((u32, u32), usize);
+
+fn name_of(encounters: &[Encounter], at: SegmentRef) -> SegmentName {
+    (encounters[at.body].handle.into_raw_parts(), at.segment)
+}
+
+/// So much of what an interface was widened by in a step is left in the next.
+const LASTS: f32 = 0.9;
 
 impl DeformationWorld {
     /// The pairs of segments, of two bodies or of one, that come close; their bodies are indices of `encounters`.
@@ -103,13 +116,13 @@ impl DeformationWorld {
         all.into_iter().step_by(stride).collect()
     }
 
-    /// Puts an interface between each two skins that overlap, or are about to, and have none yet: a part for each of them. True
-    /// for the bodies whose skins overlap others.
+    /// Puts an interface between each two skins that overlap, or are about to: a part for each of them. Where there is one in this step,
+    /// it stays where it is, and is widened to where the skins overlap now. True for the bodies whose skins overlap others.
     pub(super) fn part_skins(
         &self,
         encounters: &mut [Encounter],
         pairs: &[SegmentPair],
-        parted: &mut BTreeSet<(SegmentRef, SegmentRef)>,
+        parted: &mut Parted,
     ) -> Vec<bool> {
         let mut touched = vec![false; encounters.len()];
         for (pair, overlap) in self.skin_overlaps(encounters, pairs, NEARING) {
@@ -123,17 +136,18 @@ impl DeformationWorld {
                 PartId::interface(at.segment as u16, (body, other.segment as u16))
             };
             let names = [name(pair.a, pair.b), name(pair.b, pair.a)];
-            if !parted.insert((pair.a, pair.b)) {
-                for (at, id) in [pair.a, pair.b].into_iter().zip(names) {
-                    for part in encounters[at.body].parts.iter_mut().filter(|part| part.id == id) {
-                        part.presence = part.presence.max(presence);
-                    }
-                }
-                continue;
-            }
             let share = self.share(encounters, &pair);
             let skins = self.skins_of(encounters, &pair);
-            let Some(interface) = Interface::of(&overlap, skins, pair.normal, pair.along, share) else { continue };
+            let Some(found) = Interface::of(&overlap, skins, pair.normal, pair.along, share) else { continue };
+            let known = parted.get(&(pair.a, pair.b));
+            let [first_found, interface] = match known {
+                Some([first, known]) if overlap.depth() > TOLERANCE * size => [*first, known.reaching(&found)],
+                Some(known) => *known,
+                None => {
+                    let wider = self.widenings.get(&[pair.a, pair.b].map(|at| name_of(encounters, at)));
+                    [found, wider.map_or(found, |wider| found.grown(wider, LASTS))]
+                }
+            };
             for (side, at) in [pair.a, pair.b].into_iter().enumerate() {
                 let first = side == 0;
                 let yields = if first { share } else { 1.0 - share };
@@ -142,6 +156,11 @@ impl DeformationWorld {
                 let Ok(mut part) = interface_part(&interface, first, margin, names[side]) else { continue };
                 part.presence = presence;
                 let encounter = &mut encounters[at.body];
+                if let Some(old) = encounter.parts.iter_mut().find(|old| old.id == part.id) {
+                    part.presence = presence.max(old.presence);
+                    *old = part;
+                    continue;
+                }
                 let normal = if first { pair.normal } else { -pair.normal };
                 let (part_index, axis_point) = (encounter.parts.len(), pair.axis_points[side]);
                 encounter.near.push(Proximity {
@@ -153,8 +172,20 @@ impl DeformationWorld {
                 });
                 encounter.parts.push(part);
             }
+            parted.insert((pair.a, pair.b), [first_found, interface]);
         }
         touched
+    }
+
+    /// What interfaces were widened by serves in the next step from the beginning: else it would depend on a bulge that comes and goes how
+    /// far skins are pushed.
+    pub(super) fn remember_widenings(&mut self, encounters: &[Encounter], parted: &Parted) {
+        let widening = |((a, b), [first, last]): (&(SegmentRef, SegmentRef), &[Interface; 2])| {
+            let widening = last.beyond(first);
+            let any = widening.as_flattened().as_flattened().iter().any(|end| *end > 0.0);
+            any.then(|| ([*a, *b].map(|at| name_of(encounters, at)), widening))
+        };
+        self.widenings = parted.iter().filter_map(widening).collect();
     }
 
     /// The two skins of a pair; none where they belong to one body.

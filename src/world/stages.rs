@@ -1,6 +1,6 @@
 //! One step, stage by stage, in order.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use rapier3d::dynamics::RigidBodySet;
@@ -134,7 +134,7 @@ impl DeformationWorld {
             self.begin_coherence(encounters);
         }
         let mut pairs = pairs.to_vec();
-        let mut parted = BTreeSet::new();
+        let mut parted = BTreeMap::new();
         for round in 0..=PAIR_ROUNDS {
             let touched = self.part_skins(encounters, &pairs, &mut parted);
             if round > 0 && !touched.contains(&true) {
@@ -146,6 +146,7 @@ impl DeformationWorld {
             jobs.par_iter_mut().for_each(|(entry, encounter)| cancel_one(entry, encounter, &settings));
             pairs = self.find_pairs(encounters);
         }
+        self.remember_widenings(encounters, &parted);
         self.remember_cancellations(encounters);
         if self.settings.measure {
             self.measure_pairs(encounters, &pairs);

@@ -37,8 +37,8 @@ fn run(path: PathBuf, seed: u64, frames: u64) -> WorstFigures {
             worst.see(frame, &actor.name, &report);
             if log && worst.bad > bad {
                 println!(
-                    "{} seed {seed} frame {frame} {}: {:?} {} passes",
-                    simulation.scene.name, actor.name, report.penetration, report.passes
+                    "{} seed {seed} frame {frame} {}: {:?} skins {:.4}, {} passes",
+                    simulation.scene.name, actor.name, report.penetration, report.max_pair_depth, report.passes
                 );
             }
         }

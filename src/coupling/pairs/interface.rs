@@ -23,6 +23,9 @@ pub struct Interface {
     pub round: bool,
 }
 
+/// How much farther the two shadows of an interface reach than they did: down and up along the two axes of the plane, in metres.
+pub type Widening = [[[f32; 2]; 2]; 2];
+
 /// A rectangle in the plane, in the frame's coordinates, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shadow {
@@ -33,6 +36,33 @@ pub struct Shadow {
 }
 
 impl Shadow {
+    /// The smallest rectangle around this one and another.
+    fn joined(self, other: Self) -> Self {
+        let join = |k: usize| {
+            let from = (self.middle[k] - self.half[k]).min(other.middle[k] - other.half[k]);
+            let to = (self.middle[k] + self.half[k]).max(other.middle[k] + other.half[k]);
+            (0.5 * (from + to), 0.5 * (to - from))
+        };
+        let (x, y) = (join(0), join(1));
+        Self { middle: [x.0, y.0], half: [x.1, y.1] }
+    }
+
+    /// How much farther this rectangle reaches than another one: down and up along each axis, in metres.
+    fn beyond(self, other: Self) -> [[f32; 2]; 2] {
+        std::array::from_fn(|k| {
+            let down = (other.middle[k] - other.half[k]) - (self.middle[k] - self.half[k]);
+            let up = (self.middle[k] + self.half[k]) - (other.middle[k] + other.half[k]);
+            [down.max(0.0), up.max(0.0)]
+        })
+    }
+
+    /// This rectangle with a margin down and up along each axis.
+    fn grown(self, margin: [[f32; 2]; 2]) -> Self {
+        let middle = std::array::from_fn(|k| self.middle[k] + 0.5 * (margin[k][1] - margin[k][0]));
+        let half = std::array::from_fn(|k| self.half[k] + 0.5 * (margin[k][0] + margin[k][1]));
+        Self { middle, half }
+    }
+
     fn of(points: impl Iterator<Item = Vec3>, frame: Mat3) -> Self {
         let turned = frame.transpose();
         let (mut from, mut to) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -71,6 +101,26 @@ impl Interface {
         };
         Some(Self { frame, height, reach: [height - low, high - height], shadows, round: along.is_none() })
     }
+
+    /// How much farther the shadows reach than those of another interface of the same skins.
+    pub fn beyond(&self, other: &Self) -> Widening {
+        std::array::from_fn(|side| self.shadows[side].beyond(other.shadows[side]))
+    }
+
+    /// The same plane with wider shadows, by a part of a widening.
+    pub fn grown(self, widening: &Widening, part: f32) -> Self {
+        let margin = |side: usize| widening[side].map(|ends| ends.map(|end| end * part));
+        Self { shadows: std::array::from_fn(|side| self.shadows[side].grown(margin(side))), ..self }
+    }
+
+    /// The same plane, reaching as far as another interface between the same skins does, too: what was pushed out of one place may bulge
+    /// into the other skin beside it.
+    pub fn reaching(self, other: &Self) -> Self {
+        let low = (self.height - self.reach[0]).min(other.height - other.reach[0]);
+        let high = (self.height + self.reach[1]).max(other.height + other.reach[1]);
+        let shadows = std::array::from_fn(|side| self.shadows[side].joined(other.shadows[side]));
+        Self { reach: [self.height - low, high - self.height], shadows, ..self }
+    }
 }
 
 /// The convex part that pushes one of the two skins to its side of the interface: a box, or a cylinder, behind the plane,
@@ -108,4 +158,33 @@ pub fn interface_part(
         edges: Vec::new(),
     });
     Ok(part)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn interface(middle: [f32; 2], half: [f32; 2], height: f32, reach: [f32; 2]) -> Interface {
+        Interface { frame: Mat3::IDENTITY, height, reach, shadows: [Shadow { middle, half }; 2], round: false }
+    }
+
+    #[test]
+    fn a_widened_interface_keeps_its_plane_and_covers_both_places() {
+        let first = interface([0.0, 0.0], [1.0, 0.5], 2.0, [0.1, 0.2]);
+        let beside = interface([1.5, 0.0], [0.5, 0.2], 2.1, [0.4, 0.05]);
+        let both = first.reaching(&beside);
+        assert_eq!(both.height, 2.0);
+        for side in both.shadows {
+            assert_eq!((side.middle, side.half), ([0.5, 0.0], [1.5, 0.5]));
+        }
+        // From 1.7 to 2.2.
+        assert!((both.reach[0] - 0.3).abs() < 1e-6 && (both.reach[1] - 0.2).abs() < 1e-6, "{:?}", both.reach);
+        // The same widening of the first one in the next step covers the same.
+        let again = first.grown(&both.beyond(&first), 1.0);
+        for (again, both) in again.shadows.iter().zip(both.shadows) {
+            assert_eq!((again.middle, again.half), (both.middle, both.half));
+        }
+        let half = first.grown(&both.beyond(&first), 0.5);
+        assert_eq!((half.shadows[0].middle[0], half.shadows[0].half[0]), (0.25, 1.25));
+    }
 }

@@ -16,6 +16,6 @@ mod overlap;
 mod segments;
 
 pub use height_map::HeightMap;
-pub use interface::{Interface, interface_part};
+pub use interface::{Interface, Widening, interface_part};
 pub use overlap::{Overlap, OverlapPoint, SkinSide};
 pub use segments::{SegmentPair, SegmentRef, pairs_of, segment_bounds, self_pairs};
