@@ -145,9 +145,10 @@ impl Limits {
             "spot in a ring" => Self { gap: 0.011, coherence: 23.0, many_passes: 0.08, ..Self::AIM },
             "elephant in the tower" => Self { many_passes: 0.035, ..Self::AIM },
             "spot ragdoll in the tower" => Self { many_passes: 0.06, ..Self::AIM },
-            // Ears and trunk of the head's skin fold around an arm: a plane cannot part them.
+            // Ears and trunk of the head's skin fold around an arm: a plane cannot part them well. Since they do not overlap any more (by up
+            // to 32 % before), skin is held off by 4.1 % in one frame (2.4 % before).
             "elephant ragdoll in the tower" => {
-                Self { piercing: 0.016, gap: 0.036, pairs: 0.48, coherence: 20.0, many_passes: 0.08, ..Self::AIM }
+                Self { piercing: 0.012, gap: 0.062, coherence: 17.0, many_passes: 0.08, ..Self::AIM }
             }
             _ => Self::AIM,
         }
