@@ -24,7 +24,7 @@ pub struct CancelMemory {
     /// Which way was taken.
     pub way: usize,
     /// How it was done.
-    settings: Option<(CancelSettings, DeformSettings)>,
+    pub(super) settings: Option<(CancelSettings, DeformSettings)>,
     /// The skin before the cancellation.
     pub(super) before: Vec<Vec3>,
     /// How far the cancellation moved each vertex, seen from its segment.

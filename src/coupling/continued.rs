@@ -15,7 +15,7 @@ use super::find_contacts::find_contacts;
 use super::obstacle::{ObstaclePart, PartId};
 use super::penetrations::Contact;
 use super::strength::{Way, certify, reach_of};
-use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField};
+use crate::elastic::{CollisionField, CollisionPass, DeformSettings, ElasticBody, SegmentField};
 use crate::field::{HuggingField, Patch, PlacedPart, Spread};
 use crate::math::{Pose, Quat, Vec3};
 
@@ -56,7 +56,7 @@ impl Place {
 impl CancelMemory {
     /// How much the cancellation has changed since the step before, against what the skin has moved: the ratio of
     /// [`TimeCoherence`](super::coherence::TimeCoherence). `start` is the skin before the cancellation, `contacts` are those of this step.
-    /// 0 where nothing is known of the step before.
+    /// 0 where nothing is known of the step before, or settings have changed since.
     pub(super) fn pop(
         &self,
         body: &ElasticBody,
@@ -66,12 +66,20 @@ impl CancelMemory {
         size: f32,
         settings: &CancelSettings,
     ) -> f32 {
-        if self.before.len() != body.positions().len() {
+        if !self.is_of(body, settings) {
             return 0.0;
         }
         let (_, change) = largest_change(&self.moved, &displacements(body, start));
         let floor = (settings.depth_tolerance + settings.gap_tolerance) * size;
         change / (self.slide(start, parts, contacts) + floor / super::SMOOTH)
+    }
+
+    /// True where the step before was one of this body with the same settings.
+    fn is_of(&self, body: &ElasticBody, settings: &CancelSettings) -> bool {
+        let same = |(old, deform): &(CancelSettings, DeformSettings)| {
+            CancelSettings { first_way: settings.first_way, ..*old } == *settings && *deform == body.settings
+        };
+        self.before.len() == body.positions().len() && self.settings.as_ref().is_some_and(same)
     }
 
     /// The farthest that the skin has moved, seen from what it touched in the step before or touches in this one, in metres.
@@ -95,7 +103,7 @@ impl CancelMemory {
     }
 
     /// Takes `keep` (0 to 1) of the passes of the step before, carried along with their parts and added up to one, and goes on from there.
-    /// None where there were none.
+    /// None where there were none, or settings have changed since.
     ///
     /// The fields are added up since otherwise each step would leave a pass more; what the sum does not do as the passes did one after
     /// the other is among what is left over.
@@ -108,7 +116,7 @@ impl CancelMemory {
         size: f32,
         settings: &CancelSettings,
     ) -> Option<CancelReport> {
-        if self.passes.is_empty() || settings.max_passes == 0 {
+        if self.passes.is_empty() || settings.max_passes == 0 || !self.is_of(body, settings) {
             return None;
         }
         let contacts = find_contacts(body, parts, near, settings.depth_tolerance * size);
