@@ -181,3 +181,69 @@ fn a_dent_goes_with_the_obstacle_that_made_it() {
     let report = cancel_with_memory(&memory, &mut alone, &[], &[], RADIUS, &CancelSettings::default());
     assert_eq!((report.passes, alone.positions()), (0, &undented[..]));
 }
+
+/// The numbers of the parts were kept that they had in the step before: the dent was then carried along with another part.
+#[test]
+fn a_dent_belongs_to_the_same_part_where_others_come_into_the_list_before_it() {
+    let mut memory = CancelMemory::default();
+    let (first, parts, report, before) = between_planks(Vec3::ZERO, &memory);
+    memory.remember(before, &first, &parts, &report, &CancelSettings::default());
+    let mut more = part(&SharedShape::ball(0.1), Pose::from_translation(Vec3::Y * 5.0));
+    more[0].id.collider = (7, 0);
+    more.extend(parts.iter().cloned());
+    let mut second = ball(Pose::from_translation(Vec3::X * (5.0e-5 * RADIUS)));
+    let near = proximities(&second, &more, 0.1, &mut ContactMemories::new());
+    cancel_with_memory(&memory, &mut second, &more, &near, RADIUS, &CancelSettings::default());
+    let owners = |body: &ElasticBody, parts: &[ObstaclePart]| {
+        let fields = body.palette().passes.iter().flat_map(|pass| &pass.fields);
+        fields.map(|entry| parts[entry.owner as usize].id).collect::<Vec<_>>()
+    };
+    let known = owners(&first, &parts);
+    assert_eq!(owners(&second, &more)[..known.len()], known[..]);
+}
+
+/// A ball at `x` is pressed onto a floor: how far its skin is moved, and what was done.
+fn pressed_at(x: f32, memory: &mut CancelMemory, settings: &CancelSettings) -> (Vec<Vec3>, CancelReport) {
+    let mut body = ball(Pose::from_translation(Vec3::X * x));
+    let (parts, before) = (floor(-0.3), body.positions().to_vec());
+    let near = proximities(&body, &parts, 0.1, &mut ContactMemories::new());
+    let report = cancel_with_memory(memory, &mut body, &parts, &near, RADIUS, settings);
+    let moved = body.positions().iter().zip(&before).map(|(now, before)| now - before).collect();
+    memory.remember(before, &body, &parts, &report, &CancelSettings::default());
+    (moved, report)
+}
+
+fn largest_change(a: &[Vec3], b: &[Vec3]) -> f32 {
+    a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
+}
+
+#[test]
+fn a_skin_that_would_jump_to_another_shape_does_not_jump_while_it_slides_on() {
+    let (step, settings) = (1.0e-3 * RADIUS, CancelSettings::default());
+    // In the step before, the dent was made by much softer fields.
+    let mut memory = CancelMemory::default();
+    let softer = CancelSettings { softness: Some(4.0), ..settings };
+    let (mut last, _) = pressed_at(0.0, &mut memory, &softer);
+    let floor = (settings.depth_tolerance + settings.gap_tolerance) * RADIUS;
+    let calm = SMOOTH * step + floor;
+    let jump = largest_change(&pressed_at(step, &mut CancelMemory::default(), &settings).0, &last);
+    assert!(jump > 10.0 * calm, "else there is nothing to see: {jump} and {calm}");
+    for number in 1..=60 {
+        let (moved, report) = pressed_at(step * number as f32, &mut memory, &settings);
+        let change = largest_change(&moved, &last);
+        assert!(change < calm && report.left == 0.0, "step {number}: {change} of {calm}");
+        last = moved;
+    }
+}
+
+/// Its motion was taken for none, and whatever led out of it for a jump: the softest way was taken, or the one that did least.
+#[test]
+fn an_obstacle_that_was_not_there_in_the_step_before_is_dealt_with_as_in_a_first_step() {
+    let mut memory = CancelMemory::default();
+    let alone = ball(Pose::IDENTITY);
+    memory.remember(alone.positions().to_vec(), &alone, &[], &CancelReport::default(), &CancelSettings::default());
+    let (body, _, report, _) = between_planks(Vec3::X * 0.01, &memory);
+    let (fresh, _, first, _) = between_planks(Vec3::X * 0.01, &CancelMemory::default());
+    assert_eq!((report.way, report.passes), (first.way, first.passes));
+    assert_eq!(body.positions(), fresh.positions());
+}

@@ -15,7 +15,8 @@ use super::find_contacts::find_contacts;
 use super::obstacle::{ObstaclePart, PartId};
 use super::penetrations::{Contact, SAME_WAY};
 use super::strength::Way;
-use crate::elastic::{CollisionPass, DeformSettings, ElasticBody};
+use crate::elastic::{CollisionPass, ElasticBody};
+use crate::field::Integrator;
 use crate::math::{Pose, Vec3};
 
 /// What the cancellation of one body leaves for the next step.
@@ -24,7 +25,7 @@ pub struct CancelMemory {
     /// Which way was taken.
     pub way: usize,
     /// How it was done.
-    pub(super) settings: Option<(CancelSettings, DeformSettings)>,
+    pub(super) done: Option<Done>,
     /// The skin before the cancellation.
     pub(super) before: Vec<Vec3>,
     /// How far the cancellation moved each vertex, seen from its segment.
@@ -37,6 +38,20 @@ pub struct CancelMemory {
     /// The parts that the skin was in, whatever has led it out.
     pub(super) touched: BTreeSet<PartId>,
     pushed: Vec<Pushed>,
+}
+
+/// All that a cancellation depends on beside the skin before it and what it is in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Done {
+    pub cancel: CancelSettings,
+    pub integrator: Integrator,
+    pub enabled: bool,
+}
+
+impl Done {
+    pub fn of(body: &ElasticBody, settings: &CancelSettings) -> Self {
+        Self { cancel: *settings, integrator: body.settings.integrator, enabled: body.settings.enabled }
+    }
 }
 
 /// A contact that was pushed.
@@ -68,7 +83,7 @@ impl CancelMemory {
         };
         *self = Self {
             way: report.way,
-            settings: Some((*settings, body.settings)),
+            done: Some(Done::of(body, settings)),
             moved: displacements(body, &before),
             before,
             parts: parts.iter().map(|part| part.id).collect(),
@@ -95,7 +110,7 @@ impl CancelMemory {
         settings: &CancelSettings,
     ) -> Option<CancelReport> {
         let most_passes = MOST_PASSES.min(settings.max_passes);
-        let known = self.settings == Some((*settings, body.settings));
+        let known = self.done == Some(Done::of(body, settings));
         if !known || self.pushed.is_empty() || self.passes.len() as u32 > most_passes {
             return None;
         }
@@ -108,8 +123,9 @@ impl CancelMemory {
         if !self.recognise(&mut report.contacts, parts) {
             return None;
         }
-        for pass in &self.passes {
-            body.deform_collision(pass.clone());
+        for mut pass in self.passes.iter().cloned() {
+            self.rename_owners(&mut pass, parts);
+            body.deform_collision(pass);
             report.passes += 1;
         }
         let way = Way { softness: softness_of(body, settings), stride: 1.0, tips: false };
@@ -131,6 +147,15 @@ impl CancelMemory {
         close_gaps(body, parts, near, way, size, settings, &mut report);
         report.gap = remaining_gap(body, parts, size, settings, &report);
         (report.gap <= worth_closing(size, settings) && report.passes <= settings.max_passes).then_some(report)
+    }
+
+    /// Fields of the step before name their parts by numbers in its list; now by those in this one. A part that is gone has no number.
+    fn rename_owners(&self, pass: &mut CollisionPass, parts: &[ObstaclePart]) {
+        for entry in &mut pass.fields {
+            let name = self.parts.get(entry.owner as usize);
+            let now = name.and_then(|name| parts.iter().position(|part| part.id == *name));
+            entry.owner = now.map_or(u32::MAX, |now| now as u32);
+        }
     }
 
     /// Contacts that were pushed in the step before are those that are now. False where the contact of one is there no more: what

@@ -8,14 +8,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::attempt::{Begun, attempt};
 use super::cancel::{CancelReport, CancelSettings};
-use super::cancel_memory::CancelMemory;
+use super::cancel_memory::{CancelMemory, Done};
 use super::coherence::{displacements, largest_change, motion_seen_from};
 use super::contact::Proximity;
 use super::find_contacts::find_contacts;
 use super::obstacle::{ObstaclePart, PartId};
 use super::penetrations::Contact;
 use super::strength::{Way, certify, reach_of};
-use crate::elastic::{CollisionField, CollisionPass, DeformSettings, ElasticBody, SegmentField};
+use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField};
 use crate::field::{HuggingField, Patch, PlacedPart, Spread};
 use crate::math::{Pose, Quat, Vec3};
 
@@ -76,15 +76,22 @@ impl CancelMemory {
 
     /// True where the step before was one of this body with the same settings.
     fn is_of(&self, body: &ElasticBody, settings: &CancelSettings) -> bool {
-        let same = |(old, deform): &(CancelSettings, DeformSettings)| {
-            CancelSettings { first_way: settings.first_way, ..*old } == *settings && *deform == body.settings
-        };
-        self.before.len() == body.positions().len() && self.settings.as_ref().is_some_and(same)
+        let same = |old: &Done| Done { cancel: CancelSettings { first_way: settings.first_way, ..old.cancel }, ..*old };
+        let now = Done::of(body, settings);
+        self.before.len() == body.positions().len() && self.done.as_ref().is_some_and(|old| same(old) == now)
     }
 
-    /// The farthest that the skin has moved, seen from what it touched in the step before or touches in this one, in metres.
+    /// The farthest that the skin has moved, seen from what it touched in the step before or touches in this one, in metres. Infinite
+    /// where an obstacle that it touches was not there in the step before: nothing can be said of its motion then.
     fn slide(&self, start: &[Vec3], parts: &[ObstaclePart], contacts: &[Contact]) -> f32 {
         let now: BTreeSet<usize> = contacts.iter().flat_map(Contact::parts).collect();
+        let is_new = |part: &ObstaclePart| {
+            let of_collider = PartId { part: 0, ..part.id }..=PartId { part: u32::MAX, ..part.id };
+            !part.is_interface() && self.places.range(of_collider).next().is_none()
+        };
+        if now.iter().any(|&part| is_new(&parts[part])) {
+            return f32::INFINITY;
+        }
         let touched = parts.iter().enumerate().filter(|(i, part)| self.touched.contains(&part.id) || now.contains(i));
         let mut motions: Vec<Pose> = Vec::new();
         for motion in touched.filter_map(|(_, part)| self.motion_of(part)) {

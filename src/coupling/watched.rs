@@ -1,6 +1,6 @@
 //! Watching contacts that were cancelled: where the skin is now that lies at them, and how far from their parts.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::BTreeSet;
 
 use super::contact::Proximity;
 use super::obstacle::ObstaclePart;
@@ -33,10 +33,11 @@ impl Contact {
     /// between them.
     pub(super) fn with_triangles(mut self, body: &ElasticBody, parts: &[ObstaclePart]) -> Self {
         let positions = body.positions();
-        let members: HashSet<usize> = self.points.iter().flat_map(|p| p.point.corners()).map(|(v, _)| v).collect();
+        let mut is_member = vec![false; positions.len()];
+        self.points.iter().flat_map(|p| p.point.corners()).for_each(|(v, _)| is_member[v] = true);
         let touched = self.parts();
         let triangles = &body.rig().mesh.triangles;
-        for &vertices in triangles.iter().filter(|t| t.iter().any(|&v| members.contains(&(v as usize)))) {
+        for &vertices in triangles.iter().filter(|t| t.iter().any(|&v| is_member[v as usize])) {
             let corners = vertices.map(|v| positions[v as usize]);
             for &part in &touched {
                 let placed = &parts[part].placed;

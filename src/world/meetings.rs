@@ -40,6 +40,12 @@ fn name_of(encounters: &[Encounter], at: SegmentRef) -> SegmentName {
     (encounters[at.body].handle.into_raw_parts(), at.segment)
 }
 
+/// The name of the part that keeps the skin of a segment out of the other one's.
+pub(super) fn interface_name(encounters: &[Encounter], at: SegmentRef, other: SegmentRef) -> PartId {
+    let body = encounters[other.body].handle.into_raw_parts().0;
+    PartId::interface(at.segment as u16, (body, other.segment as u16))
+}
+
 /// So much of what an interface was widened by in a step is left in the next.
 const LASTS: f32 = 0.9;
 
@@ -131,11 +137,7 @@ impl DeformationWorld {
                 (touched[pair.a.body], touched[pair.b.body]) = (true, true);
             }
             let presence = (1.0 + overlap.closeness() / (NEARING * size)).clamp(0.0, 1.0);
-            let name = |at: SegmentRef, other: SegmentRef| {
-                let body = encounters[other.body].handle.into_raw_parts().0;
-                PartId::interface(at.segment as u16, (body, other.segment as u16))
-            };
-            let names = [name(pair.a, pair.b), name(pair.b, pair.a)];
+            let names = [interface_name(encounters, pair.a, pair.b), interface_name(encounters, pair.b, pair.a)];
             let share = self.share(encounters, &pair);
             let skins = self.skins_of(encounters, &pair);
             let Some(found) = Interface::of(&overlap, skins, pair.normal, pair.along, share) else { continue };

@@ -213,6 +213,9 @@ impl DeformationWorld {
             } else {
                 entry.coherence.forget();
             }
+            if encounter.frozen.is_some() {
+                entry.cancelled.forget();
+            }
             report.bodies.push((encounter.handle, figures));
             // A skin that stays as it is does not change.
             figures.penetration.coherence = TimeCoherence::default();

@@ -59,6 +59,11 @@ impl PartId {
     pub fn interface(segment: u16, other: (u32, u16)) -> Self {
         Self { collider: (Self::INTERFACE, other.0), part: u32::from(segment) << 16 | u32::from(other.1) }
     }
+
+    /// True for the part behind an interface between two skins.
+    pub fn is_interface(&self) -> bool {
+        self.collider.0 == Self::INTERFACE
+    }
 }
 
 impl ObstaclePart {
@@ -139,7 +144,7 @@ impl ObstaclePart {
 
     /// True for the part behind an interface between two skins.
     pub fn is_interface(&self) -> bool {
-        self.id.collider.0 == PartId::INTERFACE
+        self.id.is_interface()
     }
 
     /// True for a piece of a surface with a solid side.
