@@ -6,7 +6,7 @@ use pliant::coupling::{
     CancelMemory, CancelReport, CancelSettings, CoherenceMemory, ContactMemories, ObstaclePart, PIERCED, PartId,
     SMOOTH, SkinsMet, cancel, cancel_with_memory, convex_parts, measure, proximities,
 };
-use pliant::elastic::ElasticBody;
+use pliant::elastic::{ElasticBody, LevelOfDetail};
 use pliant::math::{Pose, Quat, Vec3};
 use pliant::spring::SpringCoefficients;
 use rapier3d::geometry::{ColliderHandle, SharedShape};
@@ -246,4 +246,19 @@ fn an_obstacle_that_was_not_there_in_the_step_before_is_dealt_with_as_in_a_first
     let (fresh, _, first, _) = between_planks(Vec3::X * 0.01, &CancelMemory::default());
     assert_eq!((report.way, report.passes), (first.way, first.passes));
     assert_eq!(body.positions(), fresh.positions());
+}
+
+/// All of the body's settings were compared, the place of the viewer among them.
+#[test]
+fn a_viewer_that_moves_does_not_make_a_body_forget_its_passes() {
+    let mut memory = CancelMemory::default();
+    let (first, parts, report, before) = between_planks(Vec3::ZERO, &memory);
+    memory.remember(before, &first, &parts, &report, &CancelSettings::default());
+    let mut second = ball(Pose::IDENTITY);
+    second.settings.level_of_detail = Some(LevelOfDetail { viewer: Vec3::Z, threshold: 0.0 });
+    place(&mut second, Pose::from_translation(Vec3::X * (5.0e-5 * RADIUS)));
+    let near = proximities(&second, &parts, 0.1, &mut ContactMemories::new());
+    cancel_with_memory(&memory, &mut second, &parts, &near, RADIUS, &CancelSettings::default());
+    let passes = &first.palette().passes;
+    assert_eq!(second.palette().passes[..passes.len()], passes[..]);
 }

@@ -113,8 +113,8 @@ fn compare(last: &Moment, now: &Moment, size: f32, floor: f32) -> Option<TimeCoh
     let mut see =
         |old: &Pose, new: &Pose| motion = motion.max(motion_seen_from([old, new], [&last.before, &now.before]));
     for &collider in last.touched.union(&now.touched) {
-        let of_collider = PartId { collider, part: 0 }..=PartId { collider, part: u32::MAX };
-        let mut common = now.parts.range(of_collider).filter_map(|(id, new)| Some((last.parts.get(id)?, new)));
+        let mut common =
+            now.parts.range(PartId::all_of(collider)).filter_map(|(id, new)| Some((last.parts.get(id)?, new)));
         let (old, new) = common.next()?;
         see(old, new);
     }

@@ -86,8 +86,7 @@ impl CancelMemory {
     fn slide(&self, start: &[Vec3], parts: &[ObstaclePart], contacts: &[Contact]) -> f32 {
         let now: BTreeSet<usize> = contacts.iter().flat_map(Contact::parts).collect();
         let is_new = |part: &ObstaclePart| {
-            let of_collider = PartId { part: 0, ..part.id }..=PartId { part: u32::MAX, ..part.id };
-            !part.is_interface() && self.places.range(of_collider).next().is_none()
+            !part.is_interface() && self.places.range(PartId::all_of(part.id.collider)).next().is_none()
         };
         if now.iter().any(|&part| is_new(&parts[part])) {
             return f32::INFINITY;

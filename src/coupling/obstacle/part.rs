@@ -1,5 +1,7 @@
 //! A convex part in the world, and the exact questions about it.
 
+use std::ops::RangeInclusive;
+
 use rapier3d::geometry::ColliderHandle;
 use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
 use rapier3d::parry::shape::SharedShape;
@@ -60,9 +62,9 @@ impl PartId {
         Self { collider: (Self::INTERFACE, other.0), part: u32::from(segment) << 16 | u32::from(other.1) }
     }
 
-    /// True for the part behind an interface between two skins.
-    pub fn is_interface(&self) -> bool {
-        self.collider.0 == Self::INTERFACE
+    /// All names that parts of a collider can have, in their order.
+    pub fn all_of(collider: (u32, u32)) -> RangeInclusive<Self> {
+        Self { collider, part: 0 }..=Self { collider, part: u32::MAX }
     }
 }
 
@@ -144,7 +146,7 @@ impl ObstaclePart {
 
     /// True for the part behind an interface between two skins.
     pub fn is_interface(&self) -> bool {
-        self.id.is_interface()
+        self.id.collider.0 == PartId::INTERFACE
     }
 
     /// True for a piece of a surface with a solid side.
