@@ -30,6 +30,7 @@ pub(super) fn attempt(
     };
     let first = report.passes;
     let tolerance = settings.depth_tolerance * size;
+    let mut stride = way.stride;
     let nothing = (f32::INFINITY, f32::INFINITY);
     let mut best = Best { worst: nothing, left: f32::INFINITY, state: body.collision_state(), passes: first };
     loop {
@@ -50,7 +51,10 @@ pub(super) fn attempt(
         if contacts.is_empty() || stuck || report.passes >= settings.max_passes {
             break;
         }
-        let mut pace = way;
+        if report.passes == first {
+            stride = stride.max(deepest / (STRIDES * size));
+        }
+        let mut pace = Way { stride, ..way };
         if report.passes - first >= WIDE_PASSES && small {
             // What is left over now is small and wedged: it is pushed out on the nearest way, by narrower fields.
             pace.softness *= 0.5;
@@ -100,6 +104,9 @@ struct Best {
     state: CollisionState,
     passes: u32,
 }
+
+/// What pushes against each other goes at least this part of its way in one pass.
+const STRIDES: f32 = 3.0;
 
 /// Passes that may go by without any gain.
 const PATIENCE: u32 = 2;

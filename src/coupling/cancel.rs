@@ -6,7 +6,7 @@ use super::contact::Proximity;
 use super::find_contacts::find_contacts;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, SAME_WAY};
-use super::ways::best_of_ways;
+use super::ways::{best_of_ways, with_fewer_passes};
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
 
@@ -103,16 +103,18 @@ pub fn cancel_with_memory(
     size: f32,
     settings: &CancelSettings,
 ) -> CancelReport {
-    let start = body.collision_state();
-    if settings.placement == Placement::Hugging
-        && let Some(report) = memory.again(body, parts, near, size, settings)
-    {
-        return report;
-    }
-    body.resume(&start);
     if settings.placement == Placement::Literal {
         return literal(body, parts, near, size, settings);
     }
+    let start = body.collision_state();
+    if let Some(report) = with_fewer_passes(memory, body, (parts, near), size, settings) {
+        return report;
+    }
+    body.resume(&start);
+    if let Some(report) = memory.again(body, parts, near, size, settings) {
+        return report;
+    }
+    body.resume(&start);
     let settings = CancelSettings { first_way: memory.way, ..*settings };
     best_of_ways(memory, None, body, (parts, near), size, &settings)
 }

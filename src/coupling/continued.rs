@@ -85,15 +85,18 @@ impl CancelMemory {
     /// where an obstacle that it touches was not there in the step before: nothing can be said of its motion then.
     fn slide(&self, start: &[Vec3], parts: &[ObstaclePart], contacts: &[Contact]) -> f32 {
         let now: BTreeSet<usize> = contacts.iter().flat_map(Contact::parts).collect();
-        let is_new = |part: &ObstaclePart| {
-            !part.is_interface() && self.places.range(PartId::all_of(part.id.collider)).next().is_none()
+        let is_new = |part: &ObstaclePart| match part.is_interface() {
+            true => part.moved.is_none(),
+            false => self.places.range(PartId::all_of(part.id.collider)).next().is_none(),
         };
         if now.iter().any(|&part| is_new(&parts[part])) {
             return f32::INFINITY;
         }
         let touched = parts.iter().enumerate().filter(|(i, part)| self.touched.contains(&part.id) || now.contains(i));
         let mut motions: Vec<Pose> = Vec::new();
-        for motion in touched.filter_map(|(_, part)| self.motion_of(part)) {
+        // The plane between two skins follows both of them: it is the other skin that this one slides along.
+        let motion = |part: &ObstaclePart| if part.is_interface() { part.moved } else { self.motion_of(part) };
+        for motion in touched.filter_map(|(_, part)| motion(part)) {
             // Most parts move together, or not at all.
             if !motions.contains(&motion) {
                 motions.push(motion);
@@ -135,16 +138,26 @@ impl CancelMemory {
             let motion = self.motion_of(&parts[owner])?;
             carried(entry, &motion, keep, body, owner as u32)
         };
-        let fields = self.passes.iter().flat_map(|pass| &pass.fields).filter_map(carry);
-        let mut pass = CollisionPass { fields: fields.collect(), steps: 1 };
-        if pass.fields.is_empty() {
-            return None;
-        }
-        certify(&mut pass, body, settings);
-        body.deform_collision(pass);
-        report.passes = 1;
-        Some(attempt(body, parts, near, way, size, settings, Begun::Continued(report)))
+        let fields: Vec<SegmentField> = self.passes.iter().flat_map(|pass| &pass.fields).filter_map(carry).collect();
+        (!fields.is_empty()).then(|| in_one_pass(fields, report, body, (parts, near), way, size, settings))
     }
+}
+
+/// Lets these fields push in one pass, and goes on from there; `report` has the contacts before them.
+pub(super) fn in_one_pass(
+    fields: Vec<SegmentField>,
+    report: CancelReport,
+    body: &mut ElasticBody,
+    (parts, near): (&[ObstaclePart], &[Proximity]),
+    way: Way,
+    size: f32,
+    settings: &CancelSettings,
+) -> CancelReport {
+    let mut pass = CollisionPass { fields, steps: 1 };
+    certify(&mut pass, body, settings);
+    body.deform_collision(pass);
+    let report = CancelReport { passes: 1, ..report };
+    attempt(body, parts, near, way, size, settings, Begun::Continued(report))
 }
 
 /// A field of the step before, carried along with the `motion` of its part and weakened.

@@ -12,6 +12,7 @@ mod contact;
 mod continued;
 mod find_contacts;
 mod gauge;
+mod grade;
 mod guards;
 mod joined;
 mod literal;

@@ -49,7 +49,6 @@ pub(super) fn solve_pass(
     let gap_tolerance = settings.gap_tolerance * size;
     let slack = 0.5 * depth_tolerance;
     let deepest = contacts.iter().map(Contact::depth).chain(least.iter().map(|least| -least)).fold(0.0, f32::max);
-    let strongest = STRONGEST * deepest;
     let mut probes = Probes::new(body, contacts);
     let mut best = (f32::INFINITY, strength.clone());
     let (mut target, mut fraction) = (strength.clone(), 1.0_f32);
@@ -78,8 +77,9 @@ pub(super) fn solve_pass(
                 })
                 .collect();
             complementarity(&matrix, &wanted, least, &mut strength);
-            for strength in &mut strength {
-                *strength = strength.min(strongest);
+            for (strength, contact) in strength.iter_mut().zip(contacts) {
+                let strongest = if contact.pierced { STRONGEST_BETWEEN } else { STRONGEST };
+                *strength = strength.min(strongest * deepest);
             }
             (target, fraction) = (strength.clone(), 1.0);
         } else {
@@ -137,6 +137,9 @@ const AGAINST_EACH_OTHER: f32 = -0.3;
 /// A field is at most this many times as strong as the deepest contact is deep: more would mean that it works against others,
 /// and the next pass, with new contacts, does better.
 const STRONGEST: f32 = 2.0;
+
+/// As [`STRONGEST`], for what pierces triangles: the corners are beside the narrow field and go less far than their triangle must.
+const STRONGEST_BETWEEN: f32 = 4.0;
 
 /// What a tip or an edge pierces is pushed out by fields that are narrower by this factor: the displacement is small, and the rest
 /// of the contact is to stay where it is.

@@ -1,7 +1,8 @@
-//! The ways to cancel that are tried one after the other, and how their outcomes are compared.
+//! The ways to cancel that are tried one after the other.
 //!
 //! Where the usual way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
 //! step before are tried once more ([`continued`](super::continued)), then softer fields, and triangles that are looked at from the first pass on.
+//! Where it is good but takes many passes, they are tried all at once, in one pass.
 
 use std::collections::VecDeque;
 
@@ -9,10 +10,11 @@ use super::attempt::{Begun, attempt};
 use super::cancel::{CancelReport, CancelSettings, WORTH_CLOSING, softness_of};
 use super::cancel_memory::CancelMemory;
 use super::contact::Proximity;
-use super::folds::count_folds;
+use super::continued::in_one_pass;
+use super::grade::{CALM, Grade, MANY};
 use super::obstacle::ObstaclePart;
 use super::strength::Way;
-use crate::elastic::{CollisionState, ElasticBody};
+use crate::elastic::{CollisionState, ElasticBody, SegmentField};
 use crate::math::Vec3;
 
 /// Tries ways until one is good, and takes the best. `earlier` is the skin before any cancellation of this step, and what was done
@@ -32,14 +34,17 @@ pub(super) fn best_of_ways(
     let mut courses = VecDeque::from([Course::Anew(first)]);
     while let Some(course) = courses.pop_front() {
         let number = course.way(first);
-        let kind = &WAYS[number];
-        let way = Way { softness: softness_of(body, settings) * kind.softer, stride: STRIDE, tips: kind.tips };
+        let way = way_of(number, body, settings);
         let outcome = match course {
             Course::Anew(_) => {
                 let earlier = earlier.map_or(Vec::new(), |(_, report)| report.contacts.clone());
                 Some(attempt(body, parts, near, way, size, settings, Begun::Anew { earlier }))
             }
             Course::Continued(keep) => memory.continued(keep, body, (parts, near), way, size, settings),
+            Course::AtOnce => best.as_ref().map(|(_, report, state)| {
+                let fields = fields_between(&start, state);
+                in_one_pass(fields, report.clone(), body, (parts, near), way, size, settings)
+            }),
         };
         if let Some(mut report) = outcome {
             // Without passes all ways are the same.
@@ -48,16 +53,20 @@ pub(super) fn best_of_ways(
             }
             report.way = number;
             let pop = memory.pop(body, before, parts, &report.contacts, size, settings);
-            let grade = Grade::of(&report, pop, body, &start, size, settings);
-            let good = grade.open <= 0.0 && grade.folds == 0;
-            if best.is_none() {
-                courses.extend(other_courses(first, pop, earlier.is_none()));
+            let mut grade = Grade::of(&report, pop, body, &start, size, settings);
+            match &best {
+                None => courses.extend(other_courses(first, grade, pop, earlier.is_none())),
+                Some((.., state)) if matches!(course, Course::AtOnce) && !alike(body, state, size) => {
+                    grade.open = grade.open.max(WORTH_CLOSING);
+                }
+                Some(_) => {}
             }
+            let is_first = best.is_none();
             if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
                 best = Some((grade, report, body.collision_state()));
             }
             let fine = best.as_ref().is_some_and(|(least, ..)| least.open <= 0.0);
-            if good || fine && kind.softer > 1.0 {
+            if !is_first && (grade.is_good() || fine && WAYS[number].softer > 1.0) {
                 break;
             }
         }
@@ -68,6 +77,43 @@ pub(super) fn best_of_ways(
     report
 }
 
+/// The passes of the step before as one, and what that leaves over. None where they were not many, or where that is not good or still takes
+/// many; then the body's skin is not what it was before.
+pub(super) fn with_fewer_passes(
+    memory: &CancelMemory,
+    body: &mut ElasticBody,
+    (parts, near): (&[ObstaclePart], &[Proximity]),
+    size: f32,
+    settings: &CancelSettings,
+) -> Option<CancelReport> {
+    if memory.passes.len() as u32 <= MANY {
+        return None;
+    }
+    let start = body.collision_state();
+    let number = memory.way.min(WAYS.len() - 1);
+    let way = way_of(number, body, settings);
+    let mut report = memory.continued(1.0, body, (parts, near), way, size, settings)?;
+    report.way = number;
+    let pop = memory.pop(body, start.positions(), parts, &report.contacts, size, settings);
+    let grade = Grade::of(&report, pop, body, &start, size, settings);
+    (grade.is_good() && grade.passes <= MANY).then_some(report)
+}
+
+/// The fields of all passes that have led from one state to another.
+fn fields_between(start: &CollisionState, end: &CollisionState) -> Vec<SegmentField> {
+    end.passes()[start.passes().len()..].iter().flat_map(|pass| pass.fields.iter().cloned()).collect()
+}
+
+/// True where no vertex is far from where it is in the other state: else the shape would depend on how many passes it takes.
+fn alike(body: &ElasticBody, other: &CollisionState, size: f32) -> bool {
+    let near = |(a, b): (&Vec3, &Vec3)| a.distance_squared(*b) < ALIKE * ALIKE * size * size;
+    body.positions().iter().zip(other.positions()).all(near)
+}
+
+/// Vertices of shapes that are alike are nearer to each other than this part of the size. With a quarter more the shapes in `corners`
+/// and `funnel` go back and forth between the two.
+const ALIKE: f32 = 0.15;
+
 /// Where the passes come from.
 #[derive(Clone, Copy, Debug)]
 enum Course {
@@ -75,6 +121,8 @@ enum Course {
     Anew(usize),
     /// So much of the passes of the step before, and what they leave over.
     Continued(f32),
+    /// The passes of the best course so far in one, and what that leaves over.
+    AtOnce,
 }
 
 impl Course {
@@ -82,18 +130,21 @@ impl Course {
     fn way(self, first: usize) -> usize {
         match self {
             Self::Anew(way) => way,
-            Self::Continued(_) => first,
+            Self::Continued(_) | Self::AtOnce => first,
         }
     }
 }
 
-/// The courses that are tried, in this order, where passes in the `first` way are not good; they changed the skin by `pop`
-/// times what it has moved.
-fn other_courses(first: usize, pop: f32, may_continue: bool) -> impl Iterator<Item = Course> {
+/// The courses that are tried, in this order, after passes in the `first` way, where these are not good or are many; they changed the
+/// skin by `pop` times what it has moved.
+fn other_courses(first: usize, grade: Grade, pop: f32, may_continue: bool) -> Vec<Course> {
+    if grade.is_good() {
+        return if grade.passes > MANY { vec![Course::AtOnce] } else { Vec::new() };
+    }
     // Where the skin would pop it goes as far towards its new shape as is calm, or else not at all.
     let keeps = if pop > CALM { [1.0 - GOES * CALM / pop, 1.0] } else { [1.0, MOST] };
-    let continued = keeps.into_iter().filter(move |_| may_continue).map(Course::Continued);
-    continued.chain((0..WAYS.len()).filter(move |&way| way != first).map(Course::Anew))
+    let continued = keeps.into_iter().filter(|_| may_continue).map(Course::Continued);
+    continued.chain((0..WAYS.len()).filter(|&way| way != first).map(Course::Anew)).collect()
 }
 
 /// The part of the way to the new shape that is gone in a step where all of it would be a pop, as a part of what is calm.
@@ -101,6 +152,12 @@ const GOES: f32 = 0.6;
 
 /// How much of the passes of the step before is kept where they are tried for their shape only.
 const MOST: f32 = 0.8;
+
+/// A way by its number in [`WAYS`].
+fn way_of(number: usize, body: &ElasticBody, settings: &CancelSettings) -> Way {
+    let kind = &WAYS[number];
+    Way { softness: softness_of(body, settings) * kind.softer, stride: STRIDE, tips: kind.tips }
+}
 
 /// A way to choose passes.
 struct Kind {
@@ -122,41 +179,3 @@ const WAYS: [Kind; 6] = [
 
 /// The way that is gone in one pass where contacts push against each other, in sizes of the body.
 const STRIDE: f32 = 0.12;
-
-/// What is wrong with the outcome of a way; of two, the lower is the better one. What comes first counts first.
-#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-struct Grade {
-    /// How many times the tolerance a depth or a gap is, or in the same proportion to its limit the change of the skin since the step before; 0 where
-    /// nothing is worth another way.
-    open: f32,
-    /// Triangles turned over.
-    folds: u32,
-    /// Passes.
-    passes: u32,
-}
-
-impl Grade {
-    fn of(
-        report: &CancelReport,
-        pop: f32,
-        body: &ElasticBody,
-        start: &CollisionState,
-        size: f32,
-        settings: &CancelSettings,
-    ) -> Self {
-        let depth = report.left / (settings.depth_tolerance * size);
-        let gap = report.gap / (settings.gap_tolerance * size);
-        let open = depth.max(gap).max(pop * WORTH_CLOSING / CALM);
-        Self {
-            open: if open <= WORTH_CLOSING { 0.0 } else { open },
-            folds: count_folds(body, start.positions(), size, TURNED),
-            passes: report.passes,
-        }
-    }
-}
-
-/// Cosine of the angle by which a triangle has turned that is looked at for a fold.
-const TURNED: f32 = 0.0;
-
-/// A time coherence up to this one is calm: a little below [`SMOOTH`](super::SMOOTH), since what is measured later knows more of what the skin touches.
-const CALM: f32 = 7.5;

@@ -16,6 +16,11 @@ impl CollisionState {
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }
+
+    /// The passes that have led there.
+    pub fn passes(&self) -> &[CollisionPass] {
+        &self.passes
+    }
 }
 
 impl ElasticBody {

@@ -12,6 +12,8 @@ pub(super) struct Encounter {
     pub handle: ElasticBodyHandle,
     pub frozen: Option<Frozen>,
     pub motions: Vec<Pose>,
+    /// The same in the step before; empty in a body's first step.
+    pub motions_before: Vec<Pose>,
     /// Everything that the skin may touch lies in here.
     pub region: Aabb,
     /// The convex parts of obstacles, then those of the interfaces with other elastic bodies and with itself.
@@ -44,6 +46,7 @@ impl Encounter {
             handle,
             frozen,
             motions,
+            motions_before: Vec::new(),
             region: Aabb::new_invalid(),
             parts: Vec::new(),
             obstacles: 0,
@@ -56,6 +59,11 @@ impl Encounter {
             settled: None,
             circumstances: None,
         }
+    }
+
+    /// How a segment has moved since the step before, where that is known.
+    pub fn motion_of(&self, segment: usize) -> Option<Pose> {
+        Some(*self.motions.get(segment)? * self.motions_before.get(segment)?.inverse())
     }
 
     /// True where the skin has to be deformed in this step.

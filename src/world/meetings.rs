@@ -141,6 +141,7 @@ impl DeformationWorld {
             let share = self.share(encounters, &pair);
             let skins = self.skins_of(encounters, &pair);
             let Some(found) = Interface::of(&overlap, skins, pair.normal, pair.along, share) else { continue };
+            let moved = [pair.b, pair.a].map(|other| encounters[other.body].motion_of(other.segment));
             let known = parted.get(&(pair.a, pair.b));
             let [first_found, interface] = match known {
                 Some([first, known]) if overlap.depth() > TOLERANCE * size => [*first, known.reaching(&found)],
@@ -157,6 +158,7 @@ impl DeformationWorld {
                 let margin = MARGIN * body.skins()[at.segment].size;
                 let Ok(mut part) = interface_part(&interface, first, margin, names[side]) else { continue };
                 part.presence = presence;
+                part.moved = moved[side];
                 let encounter = &mut encounters[at.body];
                 if let Some(old) = encounter.parts.iter_mut().find(|old| old.id == part.id) {
                     part.presence = presence.max(old.presence);

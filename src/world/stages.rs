@@ -68,7 +68,10 @@ impl DeformationWorld {
             let Some(entry) = self.entries.get_mut(encounter.handle.0) else { continue };
             if !std::mem::replace(&mut entry.placed, true) {
                 entry.body.place(&encounter.motions);
-            } else if !entry.body.move_springs(&encounter.motions, dt) {
+                continue;
+            }
+            encounter.motions_before = entry.body.motions().to_vec();
+            if !entry.body.move_springs(&encounter.motions, dt) {
                 encounter.frozen = Some(Frozen::NotFinite);
             }
         }

@@ -42,6 +42,8 @@ pub struct ObstaclePart {
     /// How far the part is there, from 0 to 1: less than 1 for one that is only just coming into being. It pushes all the same;
     /// what it makes others do comes with it gradually.
     pub presence: f32,
+    /// For the part behind an interface how the segment whose skin it stands for has moved since the step before, where that is known.
+    pub moved: Option<Pose>,
     /// A box around a part of many faces, in the part's own frame.
     pub simpler: Option<PlacedPart>,
 }
@@ -84,7 +86,7 @@ impl ObstaclePart {
         };
         let aabb = local.shape.compute_aabb(&pose);
         let LocalPart { shape, exact, border, .. } = local.clone();
-        Self { id, collider, placed, shape, exact, border, face, aabb, presence: 1.0, simpler }
+        Self { id, collider, placed, shape, exact, border, face, aabb, presence: 1.0, moved: None, simpler }
     }
 
     /// The region of constant velocity of a field of this width: the part itself, or, for a small part of many faces,
