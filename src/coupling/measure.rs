@@ -53,7 +53,8 @@ pub fn measure(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &C
     let deepest = depths.iter().copied().fold(0.0, f32::max);
     let vertices_inside = depths.iter().filter(|&&depth| depth > INSIDE * size).count() as u32;
     let piercing = deepest_triangle(body, parts, PIERCING_RESOLUTION * size).max(deepest) / size;
-    let gaps = gaps(body, parts, size, report);
+    // A tip touches skin that the contact's field has carried there.
+    let gaps = gaps(body, parts, size, report, |contact| contact.depth().max(contact.pushed));
     let largest = |held: bool| {
         let of = report.contacts.iter().zip(&gaps).filter(|(contact, _)| contact.held == held);
         of.map(|(_, gap)| *gap).fold(0.0, f32::max)
@@ -105,7 +106,7 @@ fn deepest_triangle(body: &ElasticBody, parts: &[ObstaclePart], least: f32) -> f
 
 /// The largest distance in metres that is left at a contact that is pushed by a field of its own.
 pub(super) fn widest_held_gap(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> f32 {
-    let gaps = gaps(body, parts, size, report);
+    let gaps = gaps(body, parts, size, report, Contact::depth);
     report.contacts.iter().zip(&gaps).filter(|(contact, _)| contact.held).map(|(_, gap)| *gap).fold(0.0, f32::max)
 }
 
@@ -113,8 +114,14 @@ pub(super) fn widest_held_gap(body: &ElasticBody, parts: &[ObstaclePart], size: 
 ///
 /// The parts of one obstacle count together: they overlap, and what leaves one of them may have to stop at the next.
 /// Contacts beside each other that push the same way, with one part or with parts that touch each other, count together
-/// too: the deepest decides how far they are carried.
-fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelReport) -> Vec<f32> {
+/// too: the deepest decides how far they are carried. `reach` is how far beside a contact skin is still at its place.
+fn gaps(
+    body: &ElasticBody,
+    parts: &[ObstaclePart],
+    size: f32,
+    report: &CancelReport,
+    reach: impl Fn(&Contact) -> f32 + Sync,
+) -> Vec<f32> {
     let mut obstacles: BTreeMap<(u32, u32), Vec<&ObstaclePart>> = BTreeMap::new();
     for part in parts {
         obstacles.entry(part.collider.into_raw_parts()).or_default().push(part);
@@ -124,7 +131,7 @@ fn gaps(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &CancelRe
             contact.parts().into_iter().map(|part| parts[part].collider.into_raw_parts()).collect();
         let obstacle: Vec<&ObstaclePart> =
             colliders.iter().flat_map(|collider| &obstacles[collider]).copied().collect();
-        contact_gap(body, contact, parts, &obstacle, PIERCING_RESOLUTION * size)
+        contact_gap(body, contact, parts, &obstacle, [reach(contact), PIERCING_RESOLUTION * size])
     };
     let own: Vec<f32> = report.contacts.par_iter().map(gap).collect();
     let together = |a: &Contact, b: &Contact| {
@@ -152,7 +159,7 @@ fn overlap(a: &Contact, b: &Contact) -> bool {
     a.centre.distance(b.centre) <= a.radius + b.radius
 }
 
-/// The distance between the skin of a contact and an obstacle, zero where it is at most `close`.
+/// The distance between the skin of a contact, `reach` metres around, and an obstacle; zero where it is at most `close`.
 ///
 /// The skin that is at the place of the contact now counts, whether it was in the obstacle or not. Vertices first; then the triangles around them, whose nearest point may lie between the corners.
 fn contact_gap(
@@ -160,13 +167,13 @@ fn contact_gap(
     contact: &Contact,
     parts: &[ObstaclePart],
     obstacle: &[&ObstaclePart],
-    close: f32,
+    [reach, close]: [f32; 2],
 ) -> f32 {
     let positions = body.positions();
     let own: BTreeSet<usize> = contact.parts();
     let own: Vec<&ObstaclePart> = own.into_iter().map(|part| &parts[part]).collect();
     let mut best = f32::INFINITY;
-    let beside = contact.beside(body, parts);
+    let beside = contact.beside(body, parts, reach);
     // The contact's own parts are the likeliest ones.
     for among in [&own[..], obstacle] {
         for p in contact.points.iter().chain(&beside) {

@@ -139,7 +139,7 @@ const AGAINST_EACH_OTHER: f32 = -0.3;
 const STRONGEST: f32 = 2.0;
 
 /// As [`STRONGEST`], for what pierces triangles: the corners are beside the narrow field and go less far than their triangle must.
-const STRONGEST_BETWEEN: f32 = 4.0;
+const STRONGEST_BETWEEN: f32 = 3.5;
 
 /// What a tip or an edge pierces is pushed out by fields that are narrower by this factor: the displacement is small, and the rest
 /// of the contact is to stay where it is.

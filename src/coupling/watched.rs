@@ -20,7 +20,7 @@ impl Contact {
         let distance = |p: &Penetration| parts[p.part].placed.distance(p.point.position(body.positions())).0;
         let mut points: Vec<Penetration> =
             self.points.iter().map(|p| Penetration { depth: -distance(p), ..*p }).collect();
-        points.extend(self.beside(body, parts));
+        points.extend(self.beside(body, parts, self.depth()));
         let gap = points.iter().map(|p| -p.depth).fold(f32::INFINITY, f32::min);
         let height = gap + WATCHED * body.skins()[usize::from(self.near.segment)].size;
         let points: Vec<Penetration> = points.into_iter().filter(|p| -p.depth < height).collect();
@@ -61,9 +61,10 @@ impl Contact {
         Self { held: self.held, pushed: self.pushed, ..Self::guarding(body, near, points, guards) }
     }
 
-    /// The skin that is at the place of the contact now: what went in has slid along the part, and other skin has come.
-    pub fn beside(&self, body: &ElasticBody, parts: &[ObstaclePart]) -> Vec<Penetration> {
-        let around = self.radius + self.depth();
+    /// The skin that is at the place of the contact now, within `reach` metres beside what went in: that has slid along the part, and
+    /// other skin has come.
+    pub fn beside(&self, body: &ElasticBody, parts: &[ObstaclePart], reach: f32) -> Vec<Penetration> {
+        let around = self.radius + reach;
         let own: BTreeSet<u32> = self.points.iter().map(|p| p.point.vertices[0]).collect();
         let touched = self.parts();
         let here = |&vertex: &u32| {

@@ -2,12 +2,12 @@
 //!
 //! Where the usual way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
 //! step before are tried once more ([`continued`](super::continued)), then softer fields, and triangles that are looked at from the first pass on.
-//! Where it is good but takes many passes, they are tried all at once, in one pass.
+//! Where the best is good but takes many passes, they are tried all at once, in one pass.
 
 use std::collections::VecDeque;
 
 use super::attempt::{Begun, attempt};
-use super::cancel::{CancelReport, CancelSettings, WORTH_CLOSING, softness_of};
+use super::cancel::{CancelReport, CancelSettings, softness_of};
 use super::cancel_memory::CancelMemory;
 use super::contact::Proximity;
 use super::continued::in_one_pass;
@@ -29,52 +29,64 @@ pub(super) fn best_of_ways(
 ) -> CancelReport {
     let start = body.collision_state();
     let before = earlier.map_or(start.positions(), |(before, _)| before);
-    let mut best: Option<(Grade, CancelReport, CollisionState)> = None;
+    let judge = |body: &ElasticBody, report: &CancelReport| {
+        let pop = memory.pop(body, before, parts, &report.contacts, size, settings);
+        (Grade::of(report, pop, body, &start, size, settings), pop)
+    };
+    let mut best: Option<Outcome> = None;
+    let mut usual = false;
     let first = settings.first_way.min(WAYS.len() - 1);
     let mut courses = VecDeque::from([Course::Anew(first)]);
     while let Some(course) = courses.pop_front() {
         let number = course.way(first);
         let way = way_of(number, body, settings);
-        let outcome = match course {
+        let report = match course {
             Course::Anew(_) => {
                 let earlier = earlier.map_or(Vec::new(), |(_, report)| report.contacts.clone());
                 Some(attempt(body, parts, near, way, size, settings, Begun::Anew { earlier }))
             }
             Course::Continued(keep) => memory.continued(keep, body, (parts, near), way, size, settings),
-            Course::AtOnce => best.as_ref().map(|(_, report, state)| {
-                let fields = fields_between(&start, state);
-                in_one_pass(fields, report.clone(), body, (parts, near), way, size, settings)
-            }),
         };
-        if let Some(mut report) = outcome {
+        if let Some(mut report) = report {
             // Without passes all ways are the same.
             if report.passes == 0 && (report.left <= 0.0 || settings.max_passes == 0) {
                 return report;
             }
             report.way = number;
-            let pop = memory.pop(body, before, parts, &report.contacts, size, settings);
-            let mut grade = Grade::of(&report, pop, body, &start, size, settings);
-            match &best {
-                None => courses.extend(other_courses(first, grade, pop, earlier.is_none())),
-                Some((.., state)) if matches!(course, Course::AtOnce) && !alike(body, state, size) => {
-                    grade.open = grade.open.max(WORTH_CLOSING);
-                }
-                Some(_) => {}
+            let (grade, pop) = judge(body, &report);
+            if best.is_none() {
+                courses.extend(other_courses(first, pop, earlier.is_none()));
             }
-            let is_first = best.is_none();
-            if best.as_ref().is_none_or(|(least, ..)| grade < *least) {
-                best = Some((grade, report, body.collision_state()));
+            if best.as_ref().is_none_or(|best| grade < best.grade) {
+                best = Some(Outcome { grade, report, state: body.collision_state() });
             }
-            let fine = best.as_ref().is_some_and(|(least, ..)| least.open <= 0.0);
-            if !is_first && (grade.is_good() || fine && WAYS[number].softer > 1.0) {
+            usual = matches!(course, Course::Anew(way) if way == first);
+            let fine = best.as_ref().is_some_and(|best| best.grade.open <= 0.0);
+            if grade.is_good() || fine && WAYS[number].softer > 1.0 {
                 break;
             }
         }
         body.resume(&start);
     }
-    let Some((_, report, state)) = best else { return CancelReport::default() };
-    body.resume(&state);
-    report
+    let Some(best) = best else { return CancelReport::default() };
+    if usual && best.grade.is_good() && best.grade.passes > MANY {
+        body.resume(&start);
+        let (fields, way) = (fields_between(&start, &best.state), way_of(best.report.way, body, settings));
+        let report = in_one_pass(fields, best.report.clone(), body, (parts, near), way, size, settings);
+        let (grade, _) = judge(body, &report);
+        if grade < best.grade && alike(body, &best.state, size) {
+            return report;
+        }
+    }
+    body.resume(&best.state);
+    best.report
+}
+
+/// What a course came to.
+struct Outcome {
+    grade: Grade,
+    report: CancelReport,
+    state: CollisionState,
 }
 
 /// The passes of the step before as one, and what that leaves over. None where they were not many, or where that is not good or still takes
@@ -121,8 +133,6 @@ enum Course {
     Anew(usize),
     /// So much of the passes of the step before, and what they leave over.
     Continued(f32),
-    /// The passes of the best course so far in one, and what that leaves over.
-    AtOnce,
 }
 
 impl Course {
@@ -130,21 +140,18 @@ impl Course {
     fn way(self, first: usize) -> usize {
         match self {
             Self::Anew(way) => way,
-            Self::Continued(_) | Self::AtOnce => first,
+            Self::Continued(_) => first,
         }
     }
 }
 
-/// The courses that are tried, in this order, after passes in the `first` way, where these are not good or are many; they changed the
-/// skin by `pop` times what it has moved.
-fn other_courses(first: usize, grade: Grade, pop: f32, may_continue: bool) -> Vec<Course> {
-    if grade.is_good() {
-        return if grade.passes > MANY { vec![Course::AtOnce] } else { Vec::new() };
-    }
+/// The courses that are tried, in this order, where passes in the `first` way are not good; they changed the skin by `pop`
+/// times what it has moved.
+fn other_courses(first: usize, pop: f32, may_continue: bool) -> impl Iterator<Item = Course> {
     // Where the skin would pop it goes as far towards its new shape as is calm, or else not at all.
     let keeps = if pop > CALM { [1.0 - GOES * CALM / pop, 1.0] } else { [1.0, MOST] };
-    let continued = keeps.into_iter().filter(|_| may_continue).map(Course::Continued);
-    continued.chain((0..WAYS.len()).filter(|&way| way != first).map(Course::Anew)).collect()
+    let continued = keeps.into_iter().filter(move |_| may_continue).map(Course::Continued);
+    continued.chain((0..WAYS.len()).filter(move |&way| way != first).map(Course::Anew))
 }
 
 /// The part of the way to the new shape that is gone in a step where all of it would be a pop, as a part of what is calm.
