@@ -2,7 +2,7 @@
 //!
 //! Where the usual way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
 //! step before are tried once more ([`continued`](super::continued)), then softer fields, and triangles that are looked at from the first pass on.
-//! Where the best is good but takes many passes, they are tried all at once, in one pass.
+//! Where the usual way is good but takes many passes, they are tried all at once, in one pass.
 
 use std::collections::VecDeque;
 
@@ -34,7 +34,7 @@ pub(super) fn best_of_ways(
         (Grade::of(report, pop, body, &start, size, settings), pop)
     };
     let mut best: Option<Outcome> = None;
-    let mut usual = false;
+    let mut tried = 0;
     let first = settings.first_way.min(WAYS.len() - 1);
     let mut courses = VecDeque::from([Course::Anew(first)]);
     while let Some(course) = courses.pop_front() {
@@ -60,7 +60,7 @@ pub(super) fn best_of_ways(
             if best.as_ref().is_none_or(|best| grade < best.grade) {
                 best = Some(Outcome { grade, report, state: body.collision_state() });
             }
-            usual = matches!(course, Course::Anew(way) if way == first);
+            tried += 1;
             let fine = best.as_ref().is_some_and(|best| best.grade.open <= 0.0);
             if grade.is_good() || fine && WAYS[number].softer > 1.0 {
                 break;
@@ -69,7 +69,8 @@ pub(super) fn best_of_ways(
         body.resume(&start);
     }
     let Some(best) = best else { return CancelReport::default() };
-    if usual && best.grade.is_good() && best.grade.passes > MANY {
+    // Where it is the usual way that is good.
+    if tried == 1 && best.grade.is_good() && best.grade.passes > MANY {
         body.resume(&start);
         let (fields, way) = (fields_between(&start, &best.state), way_of(best.report.way, body, settings));
         let report = in_one_pass(fields, best.report.clone(), body, (parts, near), way, size, settings);

@@ -15,21 +15,23 @@ pub fn open_share(body: &str, kind: Kind) -> (f32, f32) {
 const MANY_PASSES: f32 = 0.01;
 
 const OPEN: &[(&str, Kind, f32, f32)] = &[
-    // Tips: the skin of a few triangles around them is pushed this way and that. Four of the first forty poses take more than
-    // four passes, 29 of 1,000; two of 1,000 leave a gap of up to 1.1 %.
-    ("ball", Kind::Cone, 0.004, 0.1),
-    // Many boxes side by side, each with its own way out.
-    ("ball", Kind::Voxels, 0.0, 0.08),
+    // Tips: the skin of a few triangles around them is pushed this way and that. 9 of 1,000 take more than four passes.
+    ("ball", Kind::Cone, 0.0, 0.02),
+    // Many boxes side by side, each with its own way out: 6 of 1,000.
+    ("ball", Kind::Voxels, 0.0, 0.012),
+    // Single poses whose volume drifts by up to 0.12 % off the exact flow's: the steps are just too few there. Of the triangle meshes one leaves a gap of
+    // 0.8 %, of the voxels one folds.
     ("head", Kind::Box, 0.002, 0.0),
-    ("head", Kind::TriangleMesh, 0.0, 0.05),
-    ("head", Kind::Voxels, 0.0, 0.1),
+    ("head", Kind::Cylinder, 0.002, 0.0),
+    ("head", Kind::Plate, 0.002, 0.0),
+    ("head", Kind::TriangleMesh, 0.002, 0.0),
+    ("head", Kind::Voxels, 0.004, 0.032),
     // Where two segments of a leg are pushed different ways, skin that they share is folded, and a plate may cut the leg.
     ("camel", Kind::Capsule, 0.008, 0.0),
     ("camel", Kind::Cylinder, 0.004, 0.0),
     ("camel", Kind::Cone, 0.006, 0.0),
     ("camel", Kind::Plate, 0.014, 0.0),
-    ("camel", Kind::Hull, 0.002, 0.0),
-    ("camel", Kind::TriangleMesh, 0.032, 0.0),
+    ("camel", Kind::TriangleMesh, 0.03, 0.0),
     ("camel", Kind::Voxels, 0.008, 0.0),
 ];
 
@@ -38,5 +40,5 @@ pub fn is_open(body: &str, arrangement: &str) -> bool {
     OPEN_ARRANGEMENTS.iter().any(|(name, start)| *name == body && arrangement.starts_with(start))
 }
 
-/// The funnel of eight walls takes five or six passes.
-const OPEN_ARRANGEMENTS: &[(&str, &str)] = &[("ball", "funnel, depth 0.3"), ("head", "funnel, depth 0.3")];
+/// The funnel of eight walls takes five passes.
+const OPEN_ARRANGEMENTS: &[(&str, &str)] = &[("ball", "funnel, depth 0.3")];
