@@ -96,3 +96,22 @@ fn a_skin_knows_how_the_other_skin_moves_by() {
     let (near, far) = [&soft, &fresh].map(|other| largest_change(slow.positions(), other.positions())).into();
     assert!(near < 0.5 * far, "it stays near its old shape: {near} from it, {far} from the new one");
 }
+
+/// Fields of all parts nearby were carried along, whether the skin was still in them or not: a ball that left its floor kept its dent in free air.
+#[test]
+fn many_passes_are_gone_with_what_they_were_for() {
+    let (settings, parts) = (CancelSettings::default(), floor(-0.4, FLOOR));
+    let mut first = ball(Vec3::ZERO);
+    let before = first.positions().to_vec();
+    let report = cancelled(&mut first, &parts, &CancelMemory::default());
+    let pass = first.palette().passes[0].clone();
+    (0..7).for_each(|_| first.deform_collision(pass.clone()));
+    let mut memory = CancelMemory::default();
+    memory.remember(before, &first, &parts, &report, &settings);
+    // The floor is still near.
+    let mut second = ball(Vec3::Y * 0.12);
+    let undented = second.positions().to_vec();
+    let report = cancelled(&mut second, &parts, &memory);
+    assert_eq!(report.passes, 0);
+    assert!(second.positions() == undented, "no dent is left");
+}

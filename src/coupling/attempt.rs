@@ -105,7 +105,7 @@ struct Best {
     passes: u32,
 }
 
-/// What pushes against each other goes at least this part of its way in one pass.
+/// What pushes against each other is out in about this many passes: each goes at least the depth at first over it.
 const STRIDES: f32 = 3.0;
 
 /// Passes that may go by without any gain.

@@ -91,7 +91,8 @@ pub fn cancel(
     best_of_ways(&CancelMemory::default(), None, body, (parts, near), size, settings)
 }
 
-/// As [`cancel`], but where hardly anything has moved since the step before, with the passes of that step.
+/// As [`cancel`], but where hardly anything has moved since the step before, with the passes of that step. Where these were more than
+/// four, they are first tried all at once, carried along with their parts, whatever has moved.
 ///
 /// A body that lies still does not change its shape because the solve came out another way. `memory` is the body's own; after
 /// the step it is to be told what was done, by [`CancelMemory::remember`].

@@ -94,6 +94,11 @@ impl CancelMemory {
         };
     }
 
+    /// True where there was a step before.
+    pub fn knows_a_step(&self) -> bool {
+        self.done.is_some()
+    }
+
     /// Forgets the step before.
     pub fn forget(&mut self) {
         *self = Self { way: self.way, ..Self::default() };
@@ -205,7 +210,7 @@ impl Pushed {
 /// What moves by less than this part of the size in a step lies still.
 const TREMOR: f32 = 5.0e-4;
 
-/// More than this many passes are solved for anew.
+/// More than this many passes are solved for anew, where they cannot be done all at once.
 const MOST_PASSES: u32 = 8;
 
 /// What is inside by more than this many tolerances is corrected, then as far as one tolerance. With the usual tolerance that is

@@ -82,7 +82,7 @@ impl CancelMemory {
     }
 
     /// The farthest that the skin has moved, seen from what it touched in the step before or touches in this one, in metres. Infinite
-    /// where an obstacle that it touches was not there in the step before: nothing can be said of its motion then.
+    /// where an obstacle that it touches, or the body of another skin, was not there in the step before: nothing can be said of its motion then.
     fn slide(&self, start: &[Vec3], parts: &[ObstaclePart], contacts: &[Contact]) -> f32 {
         let now: BTreeSet<usize> = contacts.iter().flat_map(Contact::parts).collect();
         let is_new = |part: &ObstaclePart| match part.is_interface() {

@@ -53,8 +53,9 @@ pub fn measure(body: &ElasticBody, parts: &[ObstaclePart], size: f32, report: &C
     let deepest = depths.iter().copied().fold(0.0, f32::max);
     let vertices_inside = depths.iter().filter(|&&depth| depth > INSIDE * size).count() as u32;
     let piercing = deepest_triangle(body, parts, PIERCING_RESOLUTION * size).max(deepest) / size;
-    // A tip touches skin that the contact's field has carried there.
-    let gaps = gaps(body, parts, size, report, |contact| contact.depth().max(contact.pushed));
+    // A tip touches skin that the contact's field has carried there: a field is at most twice as strong as the deepest contact is deep.
+    let farthest = 2.0 * report.contacts.iter().map(Contact::depth).fold(0.0, f32::max);
+    let gaps = gaps(body, parts, size, report, |contact| contact.depth().max(contact.pushed.min(farthest)));
     let largest = |held: bool| {
         let of = report.contacts.iter().zip(&gaps).filter(|(contact, _)| contact.held == held);
         of.map(|(_, gap)| *gap).fold(0.0, f32::max)

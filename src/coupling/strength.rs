@@ -18,7 +18,7 @@ use crate::math::{Pose, Vec3};
 pub(super) struct Way {
     /// Fields fade out over this many sizes of the segment.
     pub softness: f32,
-    /// The way that is gone in one pass where contacts push against each other, in sizes of the body.
+    /// The way that is gone at least in one pass where contacts push against each other, in sizes of the body.
     pub stride: f32,
     /// Triangles that are pierced are looked at from the first pass on, not only where all that is left is small.
     pub tips: bool,
@@ -138,7 +138,7 @@ const AGAINST_EACH_OTHER: f32 = -0.3;
 /// and the next pass, with new contacts, does better.
 const STRONGEST: f32 = 2.0;
 
-/// As [`STRONGEST`], for what pierces triangles: the corners are beside the narrow field and go less far than their triangle must.
+/// As [`STRONGEST`], and of the deepest contact's depth too, for what pierces triangles: the corners are beside the narrow field and go less far than their triangle must.
 const STRONGEST_BETWEEN: f32 = 3.5;
 
 /// What a tip or an edge pierces is pushed out by fields that are narrower by this factor: the displacement is small, and the rest

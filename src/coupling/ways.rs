@@ -1,16 +1,19 @@
 //! The ways to cancel that are tried one after the other.
 //!
-//! Where the usual way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
+//! Where the first way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
 //! step before are tried once more ([`continued`](super::continued)), then softer fields, and triangles that are looked at from the first pass on.
-//! Where the usual way is good but takes many passes, they are tried all at once, in one pass.
+//! Where the first way is good but takes many passes, they are tried all at once, in one pass; and before any other, those of the step before where
+//! they were many.
 
 use std::collections::VecDeque;
 
 use super::attempt::{Begun, attempt};
 use super::cancel::{CancelReport, CancelSettings, softness_of};
 use super::cancel_memory::CancelMemory;
+use super::coherence::{displacements, largest_change};
 use super::contact::Proximity;
 use super::continued::in_one_pass;
+use super::find_contacts::find_contacts;
 use super::grade::{CALM, Grade, MANY};
 use super::obstacle::ObstaclePart;
 use super::strength::Way;
@@ -69,7 +72,7 @@ pub(super) fn best_of_ways(
         body.resume(&start);
     }
     let Some(best) = best else { return CancelReport::default() };
-    // Where it is the usual way that is good.
+    // Where it is the first way that is good.
     if tried == 1 && best.grade.is_good() && best.grade.passes > MANY {
         body.resume(&start);
         let (fields, way) = (fields_between(&start, &best.state), way_of(best.report.way, body, settings));
@@ -90,8 +93,8 @@ struct Outcome {
     state: CollisionState,
 }
 
-/// The passes of the step before as one, and what that leaves over. None where they were not many, or where that is not good or still takes
-/// many; then the body's skin is not what it was before.
+/// The passes of the step before as one, and what that leaves over. None where they were not many or a contact that they were for has ended, or where
+/// that is not good, still takes many, or leads to another shape; then the body's skin is not what it was before.
 pub(super) fn with_fewer_passes(
     memory: &CancelMemory,
     body: &mut ElasticBody,
@@ -102,6 +105,10 @@ pub(super) fn with_fewer_passes(
     if memory.passes.len() as u32 <= MANY {
         return None;
     }
+    let mut contacts = find_contacts(body, parts, near, settings.depth_tolerance * size);
+    if !memory.recognise(&mut contacts, parts) {
+        return None;
+    }
     let start = body.collision_state();
     let number = memory.way.min(WAYS.len() - 1);
     let way = way_of(number, body, settings);
@@ -109,7 +116,8 @@ pub(super) fn with_fewer_passes(
     report.way = number;
     let pop = memory.pop(body, start.positions(), parts, &report.contacts, size, settings);
     let grade = Grade::of(&report, pop, body, &start, size, settings);
-    (grade.is_good() && grade.passes <= MANY).then_some(report)
+    let (_, change) = largest_change(&memory.moved, &displacements(body, start.positions()));
+    (grade.is_good() && grade.passes <= MANY && change < ALIKE * size).then_some(report)
 }
 
 /// The fields of all passes that have led from one state to another.
@@ -117,14 +125,14 @@ fn fields_between(start: &CollisionState, end: &CollisionState) -> Vec<SegmentFi
     end.passes()[start.passes().len()..].iter().flat_map(|pass| pass.fields.iter().cloned()).collect()
 }
 
-/// True where no vertex is far from where it is in the other state: else the shape would depend on how many passes it takes.
+/// True where no vertex is far from where it is in the other state: else the shape would depend on how many passes it takes. `size` is in metres.
 fn alike(body: &ElasticBody, other: &CollisionState, size: f32) -> bool {
     let near = |(a, b): (&Vec3, &Vec3)| a.distance_squared(*b) < ALIKE * ALIKE * size * size;
     body.positions().iter().zip(other.positions()).all(near)
 }
 
-/// Vertices of shapes that are alike are nearer to each other than this part of the size. With a quarter more the shapes in `corners`
-/// and `funnel` go back and forth between the two.
+/// All vertices of shapes that are alike are nearer to each other than this part of the size. From 0.3 on the shapes in `corners` go back and forth
+/// between the two, and pop.
 const ALIKE: f32 = 0.15;
 
 /// Where the passes come from.

@@ -12,7 +12,7 @@ pub(super) struct Encounter {
     pub handle: ElasticBodyHandle,
     pub frozen: Option<Frozen>,
     pub motions: Vec<Pose>,
-    /// The same in the step before; empty in a body's first step.
+    /// The same in the step before; empty in a body's first step and in the one after it was frozen.
     pub motions_before: Vec<Pose>,
     /// Everything that the skin may touch lies in here.
     pub region: Aabb,
@@ -61,9 +61,10 @@ impl Encounter {
         }
     }
 
-    /// How a segment has moved since the step before, where that is known.
+    /// How a segment has moved in the world since the step before, where that is known: exactly not at all for one that lies still.
     pub fn motion_of(&self, segment: usize) -> Option<Pose> {
-        Some(*self.motions.get(segment)? * self.motions_before.get(segment)?.inverse())
+        let (now, before) = (self.motions.get(segment)?, self.motions_before.get(segment)?);
+        Some(if now == before { Pose::IDENTITY } else { *now * before.inverse() })
     }
 
     /// True where the skin has to be deformed in this step.

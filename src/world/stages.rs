@@ -70,7 +70,10 @@ impl DeformationWorld {
                 entry.body.place(&encounter.motions);
                 continue;
             }
-            encounter.motions_before = entry.body.motions().to_vec();
+            // After a body was frozen nobody knows how it has come here.
+            if entry.cancelled.knows_a_step() {
+                encounter.motions_before = entry.body.motions().to_vec();
+            }
             if !entry.body.move_springs(&encounter.motions, dt) {
                 encounter.frozen = Some(Frozen::NotFinite);
             }

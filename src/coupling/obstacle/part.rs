@@ -42,7 +42,8 @@ pub struct ObstaclePart {
     /// How far the part is there, from 0 to 1: less than 1 for one that is only just coming into being. It pushes all the same;
     /// what it makes others do comes with it gradually.
     pub presence: f32,
-    /// For the part behind an interface how the segment whose skin it stands for has moved since the step before, where that is known.
+    /// For the part behind an interface how the segment whose skin it stands for has moved in the world since the step before, where that is
+    /// known; none for all other parts.
     pub moved: Option<Pose>,
     /// A box around a part of many faces, in the part's own frame.
     pub simpler: Option<PlacedPart>,
