@@ -137,8 +137,8 @@ impl Limits {
             "tower starts" => Self { gap: 0.11, pairs: 0.048, many_passes: 0.12, ..Self::AIM },
             // A bean and a ball press each other into a corner: gaps that one leaves at the walls are closed in further passes, 6 of 419.
             "corners" => Self { many_passes: 0.022, ..Self::AIM },
-            // Twelve planks stand around: 3 of 90.
-            "funnel" => Self { many_passes: 0.05, ..Self::AIM },
+            // Twelve planks stand around: 5 of 90.
+            "funnel" => Self { many_passes: 0.06, ..Self::AIM },
             // Bodies land on tips: 9 of 272. In frame 159 of the whole scene a gap of 0.513 % is left.
             "spikes" => Self { gap: 5.5e-3, many_passes: 0.05, ..Self::AIM },
             // Meshes of others: a leg or a horn comes through the ring, or is caught by it, from one frame to the next.
