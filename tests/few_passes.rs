@@ -39,13 +39,19 @@ fn largest_change(a: &[Vec3], b: &[Vec3]) -> f32 {
     a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f32::max)
 }
 
+/// A ball that is pressed onto the floor at -0.4: its skin before the cancellation and after it, and what was done.
+fn pressed() -> (Vec<Vec3>, ElasticBody, CancelReport) {
+    let mut body = ball(Vec3::ZERO);
+    let before = body.positions().to_vec();
+    let report = cancelled(&mut body, &floor(-0.4, FLOOR), &CancelMemory::default());
+    (before, body, report)
+}
+
 /// Bodies of a heap at rest took five to seven passes in every step, a tenth of all rows: those with which they had come to rest.
 #[test]
 fn a_body_at_rest_with_many_passes_goes_on_with_few_and_keeps_its_shape() {
     let (settings, parts) = (CancelSettings::default(), floor(-0.4, FLOOR));
-    let mut first = ball(Vec3::ZERO);
-    let before = first.positions().to_vec();
-    let report = cancelled(&mut first, &parts, &CancelMemory::default());
+    let (before, first, report) = pressed();
     // The same a little at a time.
     let count = 8;
     let mut bit = first.palette().passes[0].clone();
@@ -101,9 +107,7 @@ fn a_skin_knows_how_the_other_skin_moves_by() {
 #[test]
 fn many_passes_are_gone_with_what_they_were_for() {
     let (settings, parts) = (CancelSettings::default(), floor(-0.4, FLOOR));
-    let mut first = ball(Vec3::ZERO);
-    let before = first.positions().to_vec();
-    let report = cancelled(&mut first, &parts, &CancelMemory::default());
+    let (before, mut first, report) = pressed();
     let pass = first.palette().passes[0].clone();
     (0..7).for_each(|_| first.deform_collision(pass.clone()));
     let mut memory = CancelMemory::default();

@@ -1,12 +1,13 @@
 //! Penetration cancellation: the skin is pushed out until it touches (section 4), in the first of several ways that leaves
 //! nothing over.
 
+use super::at_once::with_fewer_passes;
 use super::cancel_memory::CancelMemory;
 use super::contact::Proximity;
 use super::find_contacts::find_contacts;
 use super::obstacle::ObstaclePart;
 use super::penetrations::{Contact, SAME_WAY};
-use super::ways::{best_of_ways, with_fewer_passes};
+use super::ways::best_of_ways;
 use crate::elastic::ElasticBody;
 use crate::math::Vec3;
 
@@ -107,11 +108,10 @@ pub fn cancel_with_memory(
     if settings.placement == Placement::Literal {
         return literal(body, parts, near, size, settings);
     }
-    let start = body.collision_state();
     if let Some(report) = with_fewer_passes(memory, body, (parts, near), size, settings) {
         return report;
     }
-    body.resume(&start);
+    let start = body.collision_state();
     if let Some(report) = memory.again(body, parts, near, size, settings) {
         return report;
     }

@@ -128,8 +128,9 @@ impl CancelMemory {
         if !self.recognise(&mut report.contacts, parts) {
             return None;
         }
+        let numbers = numbers_of(parts);
         for mut pass in self.passes.iter().cloned() {
-            self.rename_owners(&mut pass, parts);
+            self.rename_owners(&mut pass, &numbers);
             body.deform_collision(pass);
             report.passes += 1;
         }
@@ -155,12 +156,15 @@ impl CancelMemory {
     }
 
     /// Fields of the step before name their parts by numbers in its list; now by those in this one. A part that is gone has no number.
-    fn rename_owners(&self, pass: &mut CollisionPass, parts: &[ObstaclePart]) {
+    fn rename_owners(&self, pass: &mut CollisionPass, numbers: &BTreeMap<PartId, usize>) {
         for entry in &mut pass.fields {
-            let name = self.parts.get(entry.owner as usize);
-            let now = name.and_then(|name| parts.iter().position(|part| part.id == *name));
-            entry.owner = now.map_or(u32::MAX, |now| now as u32);
+            entry.owner = self.number_now(entry.owner, numbers).map_or(u32::MAX, |now| now as u32);
         }
+    }
+
+    /// The number in this step's list of the part with this number in the list of the step before; none for one that is gone.
+    pub(super) fn number_now(&self, owner: u32, numbers: &BTreeMap<PartId, usize>) -> Option<usize> {
+        numbers.get(self.parts.get(owner as usize)?).copied()
     }
 
     /// Contacts that were pushed in the step before are those that are now. False where the contact of one is there no more: what
@@ -196,6 +200,11 @@ impl CancelMemory {
         let in_the_world = motion_seen_from([&Pose::IDENTITY; 2], skins);
         parts.iter().filter_map(seen_from).fold(in_the_world, f32::max)
     }
+}
+
+/// The numbers of parts in their list.
+pub(super) fn numbers_of(parts: &[ObstaclePart]) -> BTreeMap<PartId, usize> {
+    parts.iter().enumerate().map(|(i, part)| (part.id, i)).collect()
 }
 
 impl Pushed {

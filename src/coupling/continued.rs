@@ -4,18 +4,18 @@
 //! another shape: the skin pops. Then the fields of the step before are carried along with what they lead out of, as they were or weakened a
 //! little, and only what they leave over is solved for: so the skin goes over to another shape in several steps.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use super::attempt::{Begun, attempt};
+use super::at_once::in_one_pass;
 use super::cancel::{CancelReport, CancelSettings};
-use super::cancel_memory::{CancelMemory, Done};
+use super::cancel_memory::{CancelMemory, Done, numbers_of};
 use super::coherence::{displacements, largest_change, motion_seen_from};
 use super::contact::Proximity;
 use super::find_contacts::find_contacts;
 use super::obstacle::{ObstaclePart, PartId};
 use super::penetrations::Contact;
-use super::strength::{Way, certify, reach_of};
-use crate::elastic::{CollisionField, CollisionPass, ElasticBody, SegmentField};
+use super::strength::{Way, reach_of};
+use crate::elastic::{CollisionField, ElasticBody, SegmentField};
 use crate::field::{HuggingField, Patch, PlacedPart, Spread};
 use crate::math::{Pose, Quat, Vec3};
 
@@ -125,39 +125,32 @@ impl CancelMemory {
         size: f32,
         settings: &CancelSettings,
     ) -> Option<CancelReport> {
-        if self.passes.is_empty() || settings.max_passes == 0 || !self.is_of(body, settings) {
+        if !self.may_continue(body, settings) {
             return None;
         }
-        let contacts = find_contacts(body, parts, near, settings.depth_tolerance * size);
-        let mut report = CancelReport { way: self.way, contacts, ..CancelReport::default() };
-        self.recognise(&mut report.contacts, parts);
-        report.contacts.iter_mut().for_each(|contact| contact.pushed *= keep);
-        let now: BTreeMap<PartId, usize> = parts.iter().enumerate().map(|(i, part)| (part.id, i)).collect();
+        let mut contacts = find_contacts(body, parts, near, settings.depth_tolerance * size);
+        self.recognise(&mut contacts, parts);
+        contacts.iter_mut().for_each(|contact| contact.pushed *= keep);
+        let fields = self.carried_fields(keep, body, parts);
+        let report = CancelReport { way: self.way, contacts, ..CancelReport::default() };
+        (!fields.is_empty()).then(|| in_one_pass(fields, report, body, (parts, near), way, size, settings))
+    }
+
+    /// True where there are passes to go on from, and settings are what they were.
+    pub(super) fn may_continue(&self, body: &ElasticBody, settings: &CancelSettings) -> bool {
+        !self.passes.is_empty() && settings.max_passes > 0 && self.is_of(body, settings)
+    }
+
+    /// `keep` (0 to 1) of the fields of all passes of the step before, carried along with the parts that are still there.
+    pub(super) fn carried_fields(&self, keep: f32, body: &ElasticBody, parts: &[ObstaclePart]) -> Vec<SegmentField> {
+        let numbers = numbers_of(parts);
         let carry = |entry: &SegmentField| {
-            let owner = *now.get(self.parts.get(entry.owner as usize)?)?;
+            let owner = self.number_now(entry.owner, &numbers)?;
             let motion = self.motion_of(&parts[owner])?;
             carried(entry, &motion, keep, body, owner as u32)
         };
-        let fields: Vec<SegmentField> = self.passes.iter().flat_map(|pass| &pass.fields).filter_map(carry).collect();
-        (!fields.is_empty()).then(|| in_one_pass(fields, report, body, (parts, near), way, size, settings))
+        self.passes.iter().flat_map(|pass| &pass.fields).filter_map(carry).collect()
     }
-}
-
-/// Lets these fields push in one pass, and goes on from there; `report` has the contacts before them.
-pub(super) fn in_one_pass(
-    fields: Vec<SegmentField>,
-    report: CancelReport,
-    body: &mut ElasticBody,
-    (parts, near): (&[ObstaclePart], &[Proximity]),
-    way: Way,
-    size: f32,
-    settings: &CancelSettings,
-) -> CancelReport {
-    let mut pass = CollisionPass { fields, steps: 1 };
-    certify(&mut pass, body, settings);
-    body.deform_collision(pass);
-    let report = CancelReport { passes: 1, ..report };
-    attempt(body, parts, near, way, size, settings, Begun::Continued(report))
 }
 
 /// A field of the step before, carried along with the `motion` of its part and weakened.

@@ -2,6 +2,7 @@
 //!
 //! Rapier's sets are borrowed for a call; nothing of them is kept.
 
+mod at_once;
 mod attempt;
 mod cancel;
 mod cancel_memory;

@@ -2,22 +2,19 @@
 //!
 //! Where the first way leaves something over, folds the skin, or changes it more than the body moves, first the passes of the
 //! step before are tried once more ([`continued`](super::continued)), then softer fields, and triangles that are looked at from the first pass on.
-//! Where the first way is good but takes many passes, they are tried all at once, in one pass; and before any other, those of the step before where
-//! they were many.
+//! Where the first way is good but takes many passes, they are tried [all at once](super::at_once).
 
 use std::collections::VecDeque;
 
+use super::at_once::at_once;
 use super::attempt::{Begun, attempt};
 use super::cancel::{CancelReport, CancelSettings, softness_of};
 use super::cancel_memory::CancelMemory;
-use super::coherence::{displacements, largest_change};
 use super::contact::Proximity;
-use super::continued::in_one_pass;
-use super::find_contacts::find_contacts;
 use super::grade::{CALM, Grade, MANY};
 use super::obstacle::ObstaclePart;
 use super::strength::Way;
-use crate::elastic::{CollisionState, ElasticBody, SegmentField};
+use crate::elastic::{CollisionState, ElasticBody};
 use crate::math::Vec3;
 
 /// Tries ways until one is good, and takes the best. `earlier` is the skin before any cancellation of this step, and what was done
@@ -38,7 +35,7 @@ pub(super) fn best_of_ways(
     };
     let mut best: Option<Outcome> = None;
     let mut tried = 0;
-    let first = settings.first_way.min(WAYS.len() - 1);
+    let first = known_way(settings.first_way);
     let mut courses = VecDeque::from([Course::Anew(first)]);
     while let Some(course) = courses.pop_front() {
         let number = course.way(first);
@@ -75,10 +72,8 @@ pub(super) fn best_of_ways(
     // Where it is the first way that is good.
     if tried == 1 && best.grade.is_good() && best.grade.passes > MANY {
         body.resume(&start);
-        let (fields, way) = (fields_between(&start, &best.state), way_of(best.report.way, body, settings));
-        let report = in_one_pass(fields, best.report.clone(), body, (parts, near), way, size, settings);
-        let (grade, _) = judge(body, &report);
-        if grade < best.grade && alike(body, &best.state, size) {
+        let report = at_once(body, [&start, &best.state], &best.report, (parts, near), size, settings);
+        if let Some(report) = report.filter(|report| judge(body, report).0 < best.grade) {
             return report;
         }
     }
@@ -92,48 +87,6 @@ struct Outcome {
     report: CancelReport,
     state: CollisionState,
 }
-
-/// The passes of the step before as one, and what that leaves over. None where they were not many or a contact that they were for has ended, or where
-/// that is not good, still takes many, or leads to another shape; then the body's skin is not what it was before.
-pub(super) fn with_fewer_passes(
-    memory: &CancelMemory,
-    body: &mut ElasticBody,
-    (parts, near): (&[ObstaclePart], &[Proximity]),
-    size: f32,
-    settings: &CancelSettings,
-) -> Option<CancelReport> {
-    if memory.passes.len() as u32 <= MANY {
-        return None;
-    }
-    let mut contacts = find_contacts(body, parts, near, settings.depth_tolerance * size);
-    if !memory.recognise(&mut contacts, parts) {
-        return None;
-    }
-    let start = body.collision_state();
-    let number = memory.way.min(WAYS.len() - 1);
-    let way = way_of(number, body, settings);
-    let mut report = memory.continued(1.0, body, (parts, near), way, size, settings)?;
-    report.way = number;
-    let pop = memory.pop(body, start.positions(), parts, &report.contacts, size, settings);
-    let grade = Grade::of(&report, pop, body, &start, size, settings);
-    let (_, change) = largest_change(&memory.moved, &displacements(body, start.positions()));
-    (grade.is_good() && grade.passes <= MANY && change < ALIKE * size).then_some(report)
-}
-
-/// The fields of all passes that have led from one state to another.
-fn fields_between(start: &CollisionState, end: &CollisionState) -> Vec<SegmentField> {
-    end.passes()[start.passes().len()..].iter().flat_map(|pass| pass.fields.iter().cloned()).collect()
-}
-
-/// True where no vertex is far from where it is in the other state: else the shape would depend on how many passes it takes. `size` is in metres.
-fn alike(body: &ElasticBody, other: &CollisionState, size: f32) -> bool {
-    let near = |(a, b): (&Vec3, &Vec3)| a.distance_squared(*b) < ALIKE * ALIKE * size * size;
-    body.positions().iter().zip(other.positions()).all(near)
-}
-
-/// All vertices of shapes that are alike are nearer to each other than this part of the size. From 0.3 on the shapes in `corners` go back and forth
-/// between the two, and pop.
-const ALIKE: f32 = 0.15;
 
 /// Where the passes come from.
 #[derive(Clone, Copy, Debug)]
@@ -169,9 +122,14 @@ const GOES: f32 = 0.6;
 /// How much of the passes of the step before is kept where they are tried for their shape only.
 const MOST: f32 = 0.8;
 
+/// The number of a way that there is.
+pub(super) fn known_way(number: usize) -> usize {
+    number.min(WAYS.len() - 1)
+}
+
 /// A way by its number in [`WAYS`].
-fn way_of(number: usize, body: &ElasticBody, settings: &CancelSettings) -> Way {
-    let kind = &WAYS[number];
+pub(super) fn way_of(number: usize, body: &ElasticBody, settings: &CancelSettings) -> Way {
+    let kind = &WAYS[known_way(number)];
     Way { softness: softness_of(body, settings) * kind.softer, stride: STRIDE, tips: kind.tips }
 }
 
@@ -193,5 +151,5 @@ const WAYS: [Kind; 6] = [
     Kind { softer: 2.5, tips: true },
 ];
 
-/// The way that is gone in one pass where contacts push against each other, in sizes of the body.
+/// The way that is gone at least in one pass where contacts push against each other, in sizes of the body.
 const STRIDE: f32 = 0.12;
