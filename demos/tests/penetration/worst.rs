@@ -139,7 +139,7 @@ impl Limits {
             "corners" => Self { many_passes: 0.022, ..Self::AIM },
             // Twelve planks stand around: 5 of 90.
             "funnel" => Self { many_passes: 0.06, ..Self::AIM },
-            // Bodies land on tips: 9 of 272. In frame 159 of the whole scene a gap of 0.513 % is left.
+            // Bodies land on tips: 10 of 272. In frame 159 of the whole scene a gap of 0.513 % is left.
             "spikes" => Self { gap: 5.5e-3, many_passes: 0.05, ..Self::AIM },
             // Meshes of others: a leg or a horn comes through the ring, or is caught by it, from one frame to the next.
             "spot in a ring" => Self { gap: 0.01, coherence: 22.4, many_passes: 0.019, ..Self::AIM },
